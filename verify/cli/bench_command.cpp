@@ -82,7 +82,8 @@ class BenchRun {
   }
 
   Status run() {
-    until_interrupted([&] { bench_all(); });
+    until_stopped(
+        files_, [this] { return !report_.groups.empty(); }, [this] { bench_all(); });
     if (json_) json_.complete(io::json_document(report::to_json(report_)));
     if (!report_.groups.empty() || errors_.empty()) {
       io::print(files_.summary_stream(), report::to_text(report_));
@@ -182,6 +183,7 @@ class BenchRun {
           {.title = "reading " + name,
            .use =
                [&](data::QuerySource& source, const Progress& progress) {
+                 if (is_element(source.kind())) return fail(not_measured(source));
                  if (source.kind() != kind) return;
                  require_one_separation(source, separation);
                  group_of(groups, name, source.shape()).read(source, progress, [this] {
@@ -213,6 +215,10 @@ class BenchRun {
     return {kind_from_string(arguments_.sources.kind)};
   }
 
+  static std::string not_measured(const data::QuerySource& source) {
+    return source.name() + ": " + contact_alone("bench", source.kind()) + ": name other files";
+  }
+
   /// Files are opened once for each kind, so an error may occur twice.
   void fail(const std::string& message) {
     if (errors_.insert(message).second) report_error(message);
@@ -226,7 +232,8 @@ class BenchRun {
     if (files_.has_failed()) return Status::bad_input;
     if (report::has_wrong_answers(report_)) return Status::wrong_answers;
     if (!errors_.empty() || skipped_ != 0) return Status::bad_input;
-    return io::interrupted() ? Status::interrupted : Status::all_well;
+    if (io::interrupted()) return Status::interrupted;
+    return status_of_queries(arguments_.sources, report_.groups.size() + (report_.step ? 1U : 0U));
   }
 
   const Arguments& arguments_;

@@ -78,6 +78,8 @@ class CertifyRun {
           fmt::format("--badge: it shows one solver (--method, --plugin), and this run judges {}",
                       solvers_.all().size()));
     }
+    require_contact_for("--view", view_ && arguments.sources.built_in_set(),
+                        arguments.sources.kind);
     read_baseline();
     if (truth_) truth_.write(report::truth_header());
     if (arguments.seconds > 0.0) {
@@ -139,7 +141,7 @@ class CertifyRun {
       report_warning("the baseline remains as it was: not all queries were asked");
     }
     try {
-      if (has_baseline()) change_ = report::change_of(baseline_, results_);
+      if (has_baseline()) change_ = report::change_of(baseline_, asked_, results_);
       if (is_complete) new_baseline_.write(report::baseline_document(change_.now));
     } catch (const std::runtime_error& error) {
       report_error(error.what());
@@ -174,7 +176,7 @@ class CertifyRun {
     std::string text = "next:  --table prints every file and column";
     if (!json_) text += ", --json FILE keeps them";
     text += '\n';
-    if (jobs::has_wrong_answers(sum_) && !view_ && has_contacts_) {
+    if (!view_ && std::ranges::any_of(results_, can_be_drawn)) {
       text += "       --view FILE.html shows these queries in a browser\n";
     }
     if (!change_.mended.empty() && !new_baseline_) {
@@ -183,6 +185,11 @@ class CertifyRun {
     return text + (arguments_.judged.empty()
                        ? "       --plugin ./libsolver.so judges your solver (docs/testing.md)\n"
                        : "       touchstone fuzz searches for further wrong answers\n");
+  }
+
+  /// True if there is a wrong answer that the page draws.
+  static bool can_be_drawn(const jobs::CertifyResult& result) {
+    return result.shape && !is_element(result.shape->kind) && jobs::has_wrong_answers(result);
   }
 
   /// The sources whose queries were not all judged in the time of the run; by name in the table.
@@ -217,7 +224,6 @@ class CertifyRun {
     jobs::CertifyOptions options;
     options.separation = separation_for(arguments_.sources, source);
     solvers_.report_norms(options.separation);
-    has_contacts_ = has_contacts_ || !is_element(source.kind());
     // The truth of the families is exact.
     if (arguments_.sources.built_in_set()) options.toi_tolerance = 0;
     options.threads = arguments_.sources.threads;
@@ -235,9 +241,17 @@ class CertifyRun {
       options.on_certificates = [this](std::string_view text) { proof_.write(text); };
     }
     if (view_) {
-      require_contact(source.kind());
       options.on_wrong = [this](judge::WrongQuery wrong) {
         view_.add(view::viewed_query(std::move(wrong)));
+      };
+    }
+    if (has_baseline()) {
+      options.on_answer = [&](const solvers::Solver& solver, std::uint64_t index,
+                              const fast::Answer&, const judge::Failure*) {
+        report::add_of_query(baseline_,
+                             report::known_query(solver.name(), source.name(), source.kind(), index,
+                                                 options.separation),
+                             asked_);
       };
     }
     add(jobs::certify(source, options));
@@ -318,7 +332,8 @@ class CertifyRun {
         std::ranges::any_of(sum_.methods, is_incomplete)) {
       return Status::bad_input;
     }
-    return io::interrupted() ? Status::interrupted : Status::all_well;
+    if (io::interrupted()) return Status::interrupted;
+    return status_of_queries(arguments_.sources, sum_.queries);
   }
 
   const Arguments& arguments_;
@@ -328,10 +343,10 @@ class CertifyRun {
   Output truth_;
   CertificatesFile proof_;
   ViewFile view_;
-  bool has_contacts_ = false;  ///< in some source; the view shows no elements
   Output new_baseline_;
   Output badge_;
   report::KnownAnswers baseline_;
+  report::KnownAnswers asked_;  ///< those of the baseline whose queries were asked
   report::BaselineChange change_;
   jobs::Budget budget_;
   base::Deadline deadline_;

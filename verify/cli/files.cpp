@@ -91,8 +91,8 @@ void Output::complete_with(const std::function<std::string()>& make) {
     } catch (const std::bad_alloc&) {
       throw std::runtime_error(name_ + ": not enough memory for all that it would hold");
     }
+    file_->close();
   });
-  close();
 }
 
 void Output::close_incomplete() {

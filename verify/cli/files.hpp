@@ -76,7 +76,8 @@ class Output {
     write(text);
     close();
   }
-  /// The same with the text that make() returns, which may take more memory than there is.
+  /// The same with the text that a function makes, which may take more memory than there is; its
+  /// failure is reported like one to write.
   void complete_with(const std::function<std::string()>& make);
   /// Leaves the file of that name as it was; text that is written later is lost.
   void discard() { file_.reset(); }

@@ -250,6 +250,8 @@ class FuzzRun {
         view_(files_, arguments.view_file),
         found_(files_, arguments, arguments.separation.given()),
         bar_("fuzz") {
+    require_contact_for("--view", !arguments.view_file.empty(), arguments.kind);
+    require_contact_for("--min-separation", !is_zero(arguments.separation.given()), arguments.kind);
     files_.add_inputs(arguments.solver.files());
     load_method();
     options_.seconds = arguments.run_seconds();
@@ -293,7 +295,7 @@ class FuzzRun {
     std::vector<fs::path> written;
     attempt([&] { written = found_.close(); });
     if (json_) json_.complete(io::json_document(json));
-    write_view(json);
+    attempt([&] { write_view(json); });
     io::print(out(), fuzz::to_text(report));
     for (const fs::path& file : written)
       io::print(out(), fmt::format("written: {}\n", io::printable(file.string())));
@@ -347,12 +349,16 @@ class FuzzRun {
           [&](const QueryShape& shape) { return method_->info().terms.answers(shape); });
       if (result.size() == before) refuse(degree);
     }
-    if (!arguments_.view_file.empty()) require_contact(result.front().kind);
     return result;
   }
 
   [[noreturn]] void refuse(const std::string& degree) const {
-    const std::string what = degree == "1"        ? "straight lines; add --degree for curves"
+    const bool answers_elements = std::ranges::any_of(all_kinds, [&](Kind kind) {
+      return is_element(kind) && method_->info().terms.answers(kind);
+    });
+    const std::string what = degree == "1" && answers_elements
+                                 ? "straight lines; add --kind for tetrahedra"
+                             : degree == "1"      ? "straight lines; add --degree for curves"
                              : degree == rational ? "rational curves"
                                                   : "curves of degree " + degree;
     throw std::invalid_argument(fmt::format("{} answers no {}queries on {}", method_->name(),

@@ -160,7 +160,7 @@ std::vector<Written> write_families(const Arguments& arguments, Files& files) {
   require_same_separation(arguments.folder, separation);
   const std::vector<generate::Family> chosen_families = chosen(arguments);
   if (!is_zero(separation)) {
-    std::ranges::for_each(kinds_of(arguments.kind), require_contact);
+    require_contact_for("--min-separation", true, arguments.kind);
     fs::create_directories(arguments.folder);
     data::write_separation(arguments.folder, separation);
   }

@@ -115,18 +115,22 @@ Status intersections(const Arguments& arguments) {
     report.is_cut = report.intersections.size() > arguments.most;
     if (report.is_cut) report.intersections.pop_back();
     report.interrupted = false;
-    if (certificate) failure = prove(certificate, all, search, report);
+  });
+  json.complete_with([&] { return io::json_document(report::to_json(report)); });
+  csv.complete_with([&] { return report::to_csv(report); });
+  const auto has_results = [] { return true; };
+  until_stopped(files, has_results, [&] {
+    if (certificate && !report.interrupted) failure = prove(certificate, all, search, report);
   });
   if (report.interrupted) certificate.close_incomplete();
-  if (view) {
+  until_stopped(files, has_results, [&] {
+    if (!view) return;
     const std::string rules = report::rules_text(report);
     view.add(view::resting_facts(
         names_of(report) + (rules.empty() ? "" : " (" + rules + ")"), all, report.intersections,
         [&](const fast::Intersection& one) { return report::pair_text(report.meshes, one); }));
-  }
+  });
   view.write();
-  json.complete_with([&] { return io::json_document(report::to_json(report)); });
-  csv.complete_with([&] { return report::to_csv(report); });
   io::print(files.summary_stream(), report::to_text(report) + view.summary());
   if (!failure.empty()) report_error("no proof: " + failure);
   if (files.has_failed() || !failure.empty()) return Status::bad_input;

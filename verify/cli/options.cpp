@@ -45,6 +45,16 @@ void report_warning(std::string_view message) {
   io::print(stderr, fmt::format("touchstone: warning: {}\n", io::printable(message)));
 }
 
+std::string contact_alone(std::string_view what, Kind kind) {
+  return fmt::format("{} takes vertex-face and edge-edge alone, not a {}", what, to_string(kind));
+}
+
+void require_contact_for(std::string_view option, bool is_used, const std::string& kind) {
+  if (!is_used || kind.empty() || !is_element(kind_from_string(kind))) return;
+  throw std::invalid_argument(contact_alone(option, kind_from_string(kind)) +
+                              ": leave it out, or choose another --kind");
+}
+
 std::string command_line() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::string command;

@@ -39,6 +39,13 @@ void report_error(std::string_view message);
 /// Prints "touchstone: warning: …" on standard error, printable.
 void report_warning(std::string_view message);
 
+/// "WHAT takes vertex-face and edge-edge alone, not a tetrahedron": the reason of an error.
+[[nodiscard]] std::string contact_alone(std::string_view what, Kind kind);
+
+/// \throws std::invalid_argument if an option is used that is about contact, and --kind asks for
+/// elements.
+void require_contact_for(std::string_view option, bool is_used, const std::string& kind);
+
 /// The command line of this process, quoted for a shell, with the program's name without a path.
 [[nodiscard]] std::string command_line();
 

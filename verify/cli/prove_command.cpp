@@ -159,7 +159,8 @@ class ProveRun {
         !sum_.proofs.beyond_limits.empty()) {
       return Status::bad_input;
     }
-    return io::interrupted() ? Status::interrupted : Status::all_well;
+    if (io::interrupted()) return Status::interrupted;
+    return status_of_queries(arguments_.sources, sum_.queries);
   }
 
   const Arguments& arguments_;

@@ -114,6 +114,7 @@ class ReportRun {
       const std::vector<data::QueryGroup> groups =
           arguments_.sources.built_in_set() ? built_in() : given();
       if (!errors_.empty() && !arguments_.sources.keep_going) return Status::bad_input;
+      if (groups.empty()) return status_of_queries(arguments_.sources, 0);
       measurements = measured(groups);
     } else {
       measurements = read(arguments_.from_file);
@@ -216,6 +217,10 @@ class ReportRun {
         {.title = "reading " + name,
          .use =
              [&](data::QuerySource& source, const std::function<void(double)>& progress) {
+               if (is_element(source.kind())) {
+                 return fail(source.name() + ": " + contact_alone("report", source.kind()) +
+                             ": name other files");
+               }
                if (std::ranges::count(kinds(), source.kind()) == 0) return;
                group_of(of_sources, name, source.shape()).read(source, progress, [this] {
                  return stopped();
@@ -243,7 +248,7 @@ class ReportRun {
   void write(const report::Measurements& measurements) {
     // The measurements first, because all other outputs can be derived from them.
     if (json_) json_.complete(io::json_document(report::to_json(measurements)));
-    if (page_) page_.complete(report::report_page(measurements));
+    page_.complete_with([&] { return report::report_page(measurements); });
     wrong_.add_to(view_);
     view_.write();
     std::FILE* const out = files_.summary_stream();

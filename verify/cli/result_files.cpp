@@ -84,6 +84,10 @@ void report_beyond_limits(const jobs::ProofCounts& counts) {
 
 void ViewFile::add(view::ViewedQuery query) {
   if (!output_) return;
+  if (is_element(kind_of(query))) {
+    ++elements_;
+    return;
+  }
   const auto known = std::ranges::find_if(
       queries_, [&](const view::ViewedQuery& other) { return is_same(other, query); });
   if (known != queries_.end()) {
@@ -105,7 +109,10 @@ void ViewFile::add(const view::ViewedStep& step) {
 void ViewFile::add(nlohmann::json resting_mesh) { step_ = std::move(resting_mesh); }
 
 void ViewFile::write(const fast::MethodOptions& options) {
-  if (!output_) return;
+  output_.complete_with([&] { return page(options); });
+}
+
+std::string ViewFile::page(const fast::MethodOptions& options) const {
   const auto judge =
       solvers::solver_in_process(solvers::find_method(fast::certified_info().name), options);
   const solvers::Solver* const certified = judge.get();
@@ -116,11 +123,18 @@ void ViewFile::write(const fast::MethodOptions& options) {
     facts.push_back(
         view::query_facts(query, view::ask({&certified, has_answered ? 0U : 1U}, query).answers));
   }
-  output_.complete(view::view_page(facts, command_line(), step_));
+  return view::view_page(facts, command_line(), step_);
 }
 
 std::string ViewFile::summary(std::uint64_t allowed) const {
   if (!output_ || output_.failed()) return {};
+  if (elements_ == 0) return contents(allowed);
+  return contents(allowed) +
+         fmt::format("left out: {} about elements; it draws vertex-face and edge-edge alone\n",
+                     elements_ == 1 ? "1 query" : fmt::format("{} queries", elements_));
+}
+
+std::string ViewFile::contents(std::uint64_t allowed) const {
   const std::string name = io::printable(name_);
   if (!step_.is_null()) {
     const auto total = step_.at("total").get<std::size_t>();

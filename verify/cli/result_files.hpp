@@ -84,7 +84,7 @@ class ViewFile {
   [[nodiscard]] bool is_full() const { return queries_.size() >= most_queries; }
 
   /// Adds a query unless the page is full. If the page has the query already, its notes and answers
-  /// are extended.
+  /// are extended. Queries about elements are counted, and not drawn.
   void add(view::ViewedQuery query);
 
   /// Adds a step, and the first of its pairs.
@@ -93,19 +93,24 @@ class ViewFile {
   /// Adds a mesh at rest, from view::resting_facts().
   void add(nlohmann::json resting_mesh);
 
-  /// Writes the page, with answers of the certified solver under these options.
+  /// Writes the page, with answers of the certified solver under these options. Whatever fails is
+  /// reported.
   void write(const fast::MethodOptions& options = {});
 
-  /// A line about the contents of the page; empty if no file was named or it could not be written.
+  /// Lines about the contents of the page; empty if no file was named or it could not be written.
   /// \param allowed false positives, which break no promise and are not on the page
   [[nodiscard]] std::string summary(std::uint64_t allowed = 0) const;
 
  private:
+  [[nodiscard]] std::string page(const fast::MethodOptions& options) const;
+  [[nodiscard]] std::string contents(std::uint64_t allowed) const;
+
   std::string name_;
   Output output_;
   std::vector<view::ViewedQuery> queries_;
   nlohmann::json step_;
   bool is_cut_ = false;
+  std::size_t elements_ = 0;  ///< queries about elements
 };
 
 }  // namespace touchstone::verify::cli

@@ -151,7 +151,7 @@ class SolveRun {
     options.stop = &io::interrupted();
     options.solvers = solvers_.all();
     options.on_progress = progress;
-    options.on_answer = [&](std::uint64_t index, const fast::Answer& answer,
+    options.on_answer = [&](const solvers::Solver&, std::uint64_t index, const fast::Answer& answer,
                             const judge::Failure* failure) {
       counts_.add(answer, failure);
       out_.write(solvers::answer_row(source.name(), index, source.kind(), answer, failure));
@@ -201,6 +201,7 @@ class SolveRun {
     }
     if (io::interrupted()) return Status::interrupted;
     if (arguments_.sources.is_piece) return Status::all_well;
+    if (asked_.queries + unasked() == 0) return status_of_queries(arguments_.sources, 0);
     return status_of(solver_.name(),
                      {.asked = asked_.queries,
                       .hangs = counts_.failures[static_cast<std::size_t>(judge::Fault::hang)],

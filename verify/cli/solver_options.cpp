@@ -201,8 +201,12 @@ Solvers::Solvers(Files& files, const SolverArguments& arguments, MethodHost host
   }
   for (const std::filesystem::path& path : arguments.results) {
     results_.push_back({path, solvers::load_answers(path)});
+    fast::Terms terms;
+    for (const auto& group : results_.back().answers.groups()) {
+      terms.kinds.at(static_cast<std::size_t>(group.kind)) = true;
+    }
     add(solvers::recorded_solver(path.string(), results_.back().answers,
-                                 solvers::changed({}, arguments.terms)),
+                                 solvers::changed(terms, arguments.terms)),
         arguments.exact);
   }
 }

@@ -39,6 +39,7 @@ class TotalProgress {
 
 void for_each_family(const SourceArguments& arguments, const SourceHandlers& handlers) {
   const Separation separation = arguments.separation.given();
+  require_contact_for("--min-separation", !is_zero(separation), arguments.kind);
   const std::vector<BuiltInSource> all = built_in_sources(arguments);
   std::vector<BuiltInSource> sources;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -160,8 +161,9 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
 Separation separation_for(const SourceArguments& arguments, const data::QuerySource& source) {
   try {
     const Separation settled = arguments.separation.settle(source.recorded_separation());
-    if (!is_zero(settled)) require_contact(source.kind());
-    return settled;
+    if (is_zero(settled) || !is_element(source.kind())) return settled;
+    throw std::invalid_argument(contact_alone("--min-separation", source.kind()) +
+                                ": leave it out, or name other files");
   } catch (const std::invalid_argument& error) {
     throw io::DatasetError(source.name(), {}, error.what());
   }
@@ -176,6 +178,31 @@ void for_each_source(const SourceArguments& arguments, Files& files,
       for_each_file(arguments, files, handlers);
     }
   });
+}
+
+void until_stopped(Files& files, const std::function<bool()>& has_results,
+                   const std::function<void()>& work) {
+  until_interrupted([&] {
+    try {
+      work();
+    } catch (const fast::Stopped&) {
+      throw;
+    } catch (const io::Interrupted&) {
+      throw;
+    } catch (const std::exception& error) {
+      if (!has_results()) throw;
+      report_error(error.what());
+      files.note_failure();
+    }
+  });
+}
+
+Status status_of_queries(const SourceArguments& arguments, std::uint64_t queries) {
+  if (queries != 0 || arguments.shard.count > 1 || io::interrupted()) return Status::all_well;
+  report_error(arguments.built_in_set()
+                   ? "no query was asked"
+                   : arguments.paths.front().string() + ": no query: nothing was asked");
+  return Status::bad_input;
 }
 
 data::QueryGroup& group_of(std::vector<data::QueryGroup>& groups, const std::string& path,

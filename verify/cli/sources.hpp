@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "touchstone/step.hpp"
+#include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/data/query_group.hpp"
@@ -96,7 +97,7 @@ struct SourceHandlers {
 };
 
 /// The separation of a source: from the options, or recorded with the source.
-/// \throws DatasetError naming both if they contradict each other.
+/// \throws DatasetError naming both if they contradict each other, or for elements.
 [[nodiscard]] Separation separation_for(const SourceArguments& arguments,
                                         const data::QuerySource& source);
 
@@ -115,6 +116,14 @@ void for_each_source(const SourceArguments& arguments, Files& files,
 
 /// Works until an interrupt, after which the command goes on with the results so far.
 void until_interrupted(const std::function<void()>& work);
+
+/// The same until an error, too, which is reported and noted; it is thrown if there are no results.
+void until_stopped(Files& files, const std::function<bool()>& has_results,
+                   const std::function<void()>& work);
+
+/// The status of a run that found nothing wrong, by its number of queries: bad_input, which is
+/// reported, if there was none, unless the run is a part of others or was interrupted.
+[[nodiscard]] Status status_of_queries(const SourceArguments& arguments, std::uint64_t queries);
 
 /// The files of frames, as mesh::frame_files. Reports the other entries of a folder.
 [[nodiscard]] std::vector<std::filesystem::path> frame_files(

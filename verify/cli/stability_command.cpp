@@ -88,7 +88,7 @@ Status run(const Arguments& arguments) {
   solvers.report_output(arguments.judged.show_output);
   // Files first, so that they are complete even if standard output is closed.
   if (json) json.complete(io::json_document(report::to_json(result)));
-  if (picture) picture.complete(report::stability_page(result, command_line()));
+  picture.complete_with([&] { return report::stability_page(result, command_line()); });
   io::print(files.summary_stream(), report::to_text(result));
   if (files.has_failed()) return Status::bad_input;
   if (jobs::has_wrong_answers(result.total)) return Status::wrong_answers;

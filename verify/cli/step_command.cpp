@@ -88,7 +88,8 @@ class StepRun {
     io::ProgressBar bar("step");
     const std::size_t count = frames_->count();
     mesh::Vertices before;
-    until_interrupted([&] {
+    const auto has_results = [this] { return !report_.steps.empty(); };
+    until_stopped(files_, has_results, [&] {
       for (std::size_t i = 0; i < count && !is_stopped(); ++i) {
         mesh::Vertices after = frames_->next();
         check_frame(i, after);

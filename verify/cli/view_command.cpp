@@ -83,6 +83,8 @@ std::vector<view::ViewedQuery> read(const Arguments& arguments, Files& files) {
   view::QueryFileOptions options = arguments.files;
   if (!arguments.kind.empty()) options.kind = kind_from_string(arguments.kind);
   std::vector<view::ViewedQuery> queries;
+  std::vector<std::string> left_out;
+  options.on_left_out = [&](const std::string& label) { left_out.push_back(label); };
   if (!arguments.points.empty()) {
     if (!options.kind) throw std::invalid_argument("--points needs --kind");
     queries.push_back(
@@ -96,6 +98,12 @@ std::vector<view::ViewedQuery> read(const Arguments& arguments, Files& files) {
     for (view::ViewedQuery& query : view::read_queries(path, options)) {
       queries.push_back(std::move(query));
     }
+  }
+  if (!left_out.empty()) {
+    report_warning(
+        fmt::format("left out: {} queries about elements, the first {}: view draws vertex-face and "
+                    "edge-edge alone",
+                    left_out.size(), left_out.front()));
   }
   for (view::ViewedQuery& query : queries) {
     query.separation = arguments.separation.settle(query.separation);
@@ -111,7 +119,7 @@ std::vector<view::ViewedQuery> all_queries(const Arguments& arguments,
   if (step) queries = view::first_queries(*step, arguments.files.most);
   for (view::ViewedQuery& query : read(arguments, files)) queries.push_back(std::move(query));
   if (queries.empty() && !step) {
-    throw std::invalid_argument("no query: name a file, --points or --step");
+    throw std::invalid_argument("no query to draw: name a file, --points or --step");
   }
   return queries;
 }

@@ -140,6 +140,8 @@ class BlockAnswers {
     }
   }
 
+  [[nodiscard]] const solvers::Solver& solver() const { return solver_; }
+
   /// By query.
   [[nodiscard]] std::span<const fast::Answer> answers() const { return answers_; }
 
@@ -265,7 +267,8 @@ class BlockJudgement {
     for (const BlockAnswers& answers : answers_) {
       for (std::size_t i = 0; i < complete_; ++i) {
         if (answers.why_unasked(i)) continue;
-        options_.on_answer(block_.indices[i], answers.answers()[i], answers.failure(i));
+        options_.on_answer(answers.solver(), block_.indices[i], answers.answers()[i],
+                           answers.failure(i));
       }
     }
   }

@@ -48,11 +48,12 @@ struct CertifyOptions {
   /// never from two threads at once. Without it none are made.
   std::function<void(std::string_view)> on_certificates = nullptr;
   exact::ProveOptions proof = {};
-  /// Called for each answer of the solvers, with the query's index and its failure, if more is
+  /// Called for each answer of a solver, with the query's index and its failure, if more is
   /// known than the answer shows (else null). The answers of a block come solver by solver, in
   /// order, never from two threads at once.
-  std::function<void(std::uint64_t, const fast::Answer&, const judge::Failure*)> on_answer =
-      nullptr;
+  std::function<void(const solvers::Solver&, std::uint64_t, const fast::Answer&,
+                     const judge::Failure*)>
+      on_answer = nullptr;
   /// Called with each query that a solver answered wrongly (an answer that breaks its promise), or
   /// that has a mismatch; with the answers of all solvers; in order, never from two threads at
   /// once. Some of a great many wrong answers in a row are left out.
@@ -64,7 +65,7 @@ struct CertifyOptions {
   const std::atomic<bool>* stop = nullptr;
   /// No further queries are read after it (Budget::begin_source).
   base::Deadline deadline = {};
-  /// True if time is short: queries are decided in smaller blocks.
+  /// Use small blocks, so that the deadline is met.
   bool is_short_of_time = false;
   /// Judged on every query; not null.
   std::vector<const solvers::Solver*> solvers = {};

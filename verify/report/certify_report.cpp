@@ -219,6 +219,7 @@ std::string time_text(std::optional<double> nanoseconds) {
 std::string promise_cell(const jobs::MethodResult& method) {
   std::string promise(solvers::to_string(method.promise));
   if (method.promise == fast::Promise::none) return promise;
+  if (method.judgement.queries == 0) return promise + ": not judged";
   return promise + (judge::keeps(method.judgement, method.promise) ? ": kept" : ": broken");
 }
 
@@ -399,8 +400,13 @@ std::string to_summary(const std::vector<jobs::CertifyResult>& results, std::siz
     const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
     return text + wrong_text(results, sum, lines < most_lines ? most_lines - lines : 0);
   }
+  if (sum.queries == 0) return text + "found: nothing, as nothing was asked\n";
   if (sum.labels + sum.tois == 0 && sum.methods.empty()) {
     return text + "found: nothing to compare, without recorded answers and solvers\n";
+  }
+  if (std::ranges::all_of(sum.methods, [](const auto& m) { return m.judgement.queries == 0; }) &&
+      sum.labels + sum.tois == 0) {
+    return text + "found: nothing, as no solver answered\n";
   }
   const bool has_false_alarms = std::ranges::any_of(sum.methods, [](const auto& method) {
     return method.judgement.count(judge::Fault::false_positive) != 0;
@@ -472,19 +478,11 @@ void add_wrong_answers(KnownAnswers& to, const jobs::CertifyResult& result,
   }
   for (const judge::WrongAnswer& wrong : method.judgement.wrong_answers) {
     if (!judge::breaks(wrong.fault, method.promise)) continue;
-    to.insert({method.name, result.name, std::string(to_string(result.shape.value().kind)),
-               wrong.index, wrong.fault});
+    KnownAnswer known = known_query(method.name, result.name, result.shape.value().kind,
+                                    wrong.index, result.separation);
+    known.fault = wrong.fault;
+    to.insert(std::move(known));
   }
-}
-
-/// True if the run has asked the solver about the query.
-bool is_asked(const KnownAnswer& known, const std::vector<jobs::CertifyResult>& results) {
-  return std::ranges::any_of(results, [&](const jobs::CertifyResult& result) {
-    return result.name == known.file && result.shape &&
-           to_string(result.shape->kind) == known.kind && known.index < result.queries &&
-           std::ranges::find(result.methods, known.solver, &jobs::MethodResult::name) !=
-               result.methods.end();
-  });
 }
 
 /// The first answers, a line each.
@@ -503,6 +501,26 @@ std::string list_text(std::string_view title, const KnownAnswers& answers) {
 
 }  // namespace
 
+KnownAnswer known_query(const std::string& solver, const std::string& file, Kind kind,
+                        std::uint64_t index, const Separation& separation) {
+  return {.solver = solver,
+          .file = file,
+          .kind = std::string(to_string(kind)),
+          .index = index,
+          .distance = separation.distance,
+          .norm = std::string(to_string(separation.norm)),
+          .fault = judge::all_faults.front()};
+}
+
+void add_of_query(const KnownAnswers& known, const KnownAnswer& query, KnownAnswers& to) {
+  for (auto at = known.lower_bound(query); at != known.end(); ++at) {
+    KnownAnswer same = query;
+    same.fault = at->fault;
+    if (*at != same) return;
+    to.insert(*at);
+  }
+}
+
 KnownAnswers wrong_answers_of(const std::vector<jobs::CertifyResult>& results) {
   KnownAnswers all;
   for (const jobs::CertifyResult& result : results) {
@@ -518,7 +536,10 @@ KnownAnswers read_baseline(const std::filesystem::path& path) {
     for (const nlohmann::json& row : json.at("known")) {
       const auto fault = judge::fault_from_name(row.at(4).get<std::string>());
       if (!fault) throw std::invalid_argument("an unknown fault: " + row.at(4).dump());
-      known.insert({row.at(0), row.at(1), row.at(2), row.at(3), *fault});
+      const bool is_about_contact = row.size() < 7;
+      known.insert({row.at(0), row.at(1), row.at(2), row.at(3),
+                    is_about_contact ? 0.0 : row.at(5).get<double>(),
+                    is_about_contact ? "linf" : row.at(6).get<std::string>(), *fault});
     }
   } catch (const io::DatasetError&) {
     throw;
@@ -531,22 +552,23 @@ KnownAnswers read_baseline(const std::filesystem::path& path) {
 std::string baseline_document(const KnownAnswers& known) {
   std::string rows;
   for (const KnownAnswer& one : known) {
-    const nlohmann::json row{one.solver, one.file, one.kind, one.index,
-                             judge::to_string(one.fault)};
+    const nlohmann::json row{
+        one.solver,   one.file, one.kind, one.index, judge::to_string(one.fault),
+        one.distance, one.norm};
     rows += rows.empty() ? "\n" : ",\n";
     rows += row.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   }
   return fmt::format("{{\"known\": [{}\n]}}\n", rows);
 }
 
-BaselineChange change_of(const KnownAnswers& baseline,
+BaselineChange change_of(const KnownAnswers& baseline, const KnownAnswers& asked,
                          const std::vector<jobs::CertifyResult>& results) {
   BaselineChange change{.fresh = {}, .mended = {}, .now = wrong_answers_of(results)};
   std::ranges::set_difference(change.now, baseline,
                               std::inserter(change.fresh, change.fresh.end()));
   for (const KnownAnswer& known : baseline) {
     if (change.now.contains(known)) continue;
-    (is_asked(known, results) ? change.mended : change.now).insert(known);
+    (asked.contains(known) ? change.mended : change.now).insert(known);
   }
   return change;
 }

@@ -71,20 +71,31 @@ namespace touchstone::verify::report {
 struct KnownAnswer {
   std::string solver;
   std::string file;  ///< or family
-  std::string kind;  ///< "vertex-face" or "edge-edge"
+  std::string kind;  ///< "vertex-face" and so on
   std::uint64_t index = 0;
+  double distance = 0.0;  ///< the minimum separation that was asked, in
+  std::string norm;       ///< "linf" or "l2"
   judge::Fault fault = judge::Fault::false_negative;
 
   friend auto operator<=>(const KnownAnswer&, const KnownAnswer&) = default;
 };
+/// Those about one query are neighbours.
 using KnownAnswers = std::set<KnownAnswer>;
+
+/// The key of the answers of a solver to a query; its fault is the first of all.
+[[nodiscard]] KnownAnswer known_query(const std::string& solver, const std::string& file, Kind kind,
+                                      std::uint64_t index, const Separation& separation);
+
+/// Adds the known answers about that query to others.
+void add_of_query(const KnownAnswers& known, const KnownAnswer& query, KnownAnswers& to);
 
 /// The answers that broke a promise.
 /// \throws std::runtime_error if a solver has more of one fault in one file than are kept
 /// (judge::Judgement::most_kept).
 [[nodiscard]] KnownAnswers wrong_answers_of(const std::vector<jobs::CertifyResult>& results);
 
-/// The known answers of a file as `baseline_document` writes it. \throws io::DatasetError
+/// The known answers of a file as `baseline_document` writes it; those without a separation are
+/// about contact, in the norm linf. \throws io::DatasetError
 [[nodiscard]] KnownAnswers read_baseline(const std::filesystem::path& path);
 
 /// JSON with an answer a line.
@@ -96,7 +107,8 @@ struct BaselineChange {
   KnownAnswers mended;  ///< in the baseline, asked in this run, and no longer wrong
   KnownAnswers now;     ///< the baseline without `mended`, with `fresh`
 };
-[[nodiscard]] BaselineChange change_of(const KnownAnswers& baseline,
+/// \param asked those of the baseline whose queries this run has asked
+[[nodiscard]] BaselineChange change_of(const KnownAnswers& baseline, const KnownAnswers& asked,
                                        const std::vector<jobs::CertifyResult>& results);
 
 /// The change in some lines, the first answers of each sort by name.

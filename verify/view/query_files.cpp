@@ -45,7 +45,12 @@ class Selection {
   }
   /// True if nothing more can be selected.
   [[nodiscard]] bool is_complete() const { return queries_.size() >= wanted(); }
-  void add(ViewedQuery query) { queries_.push_back(std::move(query)); }
+  /// Adds it, unless it is about an element.
+  void add(ViewedQuery query) {
+    if (!is_element(kind_of(query))) return queries_.push_back(std::move(query));
+    has_left_out_ = true;
+    if (options_.on_left_out) options_.on_left_out(query.label);
+  }
 
   /// \throws DatasetError if there is none, or one that was named is not there
   [[nodiscard]] std::vector<ViewedQuery> take(const fs::path& path, std::uint64_t offered) {
@@ -54,7 +59,8 @@ class Selection {
       throw io::DatasetError(path, {},
                              fmt::format("there is no query {}; it has {}", index, offered));
     }
-    if (queries_.empty()) throw io::DatasetError(path, {}, "there is no query in it");
+    if (queries_.empty() && !has_left_out_)
+      throw io::DatasetError(path, {}, "there is no query in it");
     return std::move(queries_);
   }
 
@@ -66,6 +72,7 @@ class Selection {
 
   QueryFileOptions options_;
   std::vector<ViewedQuery> queries_;
+  bool has_left_out_ = false;
 };
 
 // ---- Datasets -----------------------------------------------------------------------------------

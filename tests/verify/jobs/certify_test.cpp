@@ -279,8 +279,9 @@ TEST(CertifyMethods, AnswersWithoutATruth) {
     options.decides = false;
     options.threads = threads;
     options.solvers = {solver.get()};
-    options.on_answer = [&](std::uint64_t index, const Answer& answer,
+    options.on_answer = [&](const solvers::Solver& asked, std::uint64_t index, const Answer& answer,
                             const judge::Failure* failure) {
+      ASSERT_EQ(&asked, solver.get());
       ASSERT_EQ(failure, nullptr);
       ASSERT_EQ(index, next);
       ASSERT_EQ(answer.toi_lower, static_cast<double>(next++));
