@@ -544,15 +544,15 @@ def large(data):
             f"Not part of the tables above. Made by `./run results large`, {data['date']}: the queries of "
             f"{len(large_run.SCENES)} simulations (`./run simulate SCENE --record`; {', '.join(large_run.SCENES)}), "
             f"{judged_['queries']:,} of them, of which {judged_['collisions']:,} collide; {of['bytes'] / 1e9:.1f} GB in "
-            f"{of['pieces']} shards. Recorded in {of['recording_seconds'] / 60:.0f} minutes, and judged by {large_run.WORKERS} workers of "
-            f"`examples/cluster/parallel.sh`, which were killed by SIGKILL and started again: {deciding:.1f} minutes of one core for "
+            f"{of['pieces']} files. Recorded in {of['recording_seconds'] / 60:.0f} minutes, and judged by {large_run.WORKERS} processes at a time of "
+            f"`examples/cluster/parallel.sh`, of which some were killed by SIGKILL and started again: {deciding:.1f} minutes of one core for "
             f"the oracle and {answering:.1f} for the methods of the first command. A process has at most "
             f"{of['greatest_memory_bytes'] / 1e6:.0f} MB.", "",
             "```", of["command"], sampled["command"], "```", "",
             *table(["method", "asked", "false negatives", "false positives", "late", "time, in that of certified"], rows), "",
-            "The second command asks as many of each shard as its time allows.", "",
-            f"And `{stepped['command']}`: the {stepped['result']['steps']:,} steps of the last simulation, each a piece, in "
-            f"{rounded(stepped['seconds'])} s ({stepped['kills']} kills): {stepped['result']['colliding']} collide.", ""]
+            "The second command asks as many of each file as its time allows.", "",
+            f"And `{stepped['command']}`: the {stepped['result']['steps']:,} steps of the last simulation, of "
+            f"which {stepped['result']['colliding']} collide.", ""]
 
 
 # The marked parts of the documents, in their order, each with its files of data.

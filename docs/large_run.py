@@ -1,8 +1,8 @@
-"""The large run of docs/results.md: at least sixty million recorded queries, and all steps of a simulation, in pieces.
+"""The large run of docs/results.md: at least sixty million recorded queries, in parts, and all steps of a simulation.
 
-`./run results large` records what `./run simulate` asks of collision detection, splits it into shards, and judges
-it and the steps by the recipe for GNU parallel of examples/cluster, whose workers are killed on the way. It takes about an hour
-on two cores, and 50 GB in build/large.
+`./run results large` records what `./run simulate` asks of collision detection, splits it into files, and judges it by the
+recipe for GNU parallel of examples/cluster, of which processes are killed on the way. It takes about an hour on two cores, and
+50 GB in build/large.
 """
 
 import json
@@ -22,33 +22,34 @@ import cluster  # noqa: E402  (the test of the same recipes)
 SCENES = ["two-heads", "chain-of-rings", "dimpled-ball", "draped-cloth", "twisting-mat --steps 200"]
 LIMIT = 40000  # of queries of a kind in a motion
 FEWEST = 60_000_000
-SHARD = 1_000_000  # queries
-# The methods that answer all queries; the others answer as many of each shard as these seconds for all of them allow.
+FILE = 1_000_000  # queries
+# The methods that answer all queries; the others answer as many of each file as these seconds for all of them allow.
 ON_ALL = ["certified", "tight_inclusion", "tccd"]
 SAMPLED = ["irf", "uirf", "fprf", "rp", "rrp", "bsc", "msrf", "accd"]
 SECONDS_OF_SAMPLES = 240
 WORKERS = 2
-KILLS = 2  # a recipe starts a worker three times
+PARTS = 16
+KILLS = 2  # the recipe starts a part three times
 
 
-def kill_workers(folder, pieces, kills, stop):
-    """Kill a process of a shard at moments spread over the run; the list `kills` counts them."""
-    moments = sorted(random.Random(60).sample(range(1, pieces), min(KILLS, pieces - 1)))
+def kill_workers(folder, kills, stop):
+    """Kill a process of a part at moments spread over the run; the list `kills` counts them."""
+    moments = sorted(random.Random(60).sample(range(1, PARTS), KILLS))
     while moments and not stop.wait(0.05):
-        if len(list(folder.glob("*.piece"))) < moments[0]:
+        if len(list(folder.glob("*.json"))) < moments[0]:
             continue
         if cluster.kill_worker(folder):
             kills.append(moments.pop(0))
 
 
-def in_pieces(command, pieces, folder, options):
-    """The merged result of a command in pieces, with its cost. The runs of an interrupted measurement go on."""
+def in_parts(command, folder, options):
+    """The sum of the parts of a command, with its cost."""
+    shutil.rmtree(folder, ignore_errors=True)
     kills, stop, begin = [], threading.Event(), time.monotonic()
-    killer = threading.Thread(target=kill_workers, args=(folder, pieces, kills, stop))
+    killer = threading.Thread(target=kill_workers, args=(folder, kills, stop))
     killer.start()
     recipe = ROOT / "examples/cluster/parallel.sh"
-    done = subprocess.run([recipe, folder, str(WORKERS), options.tool, *command, "--json", folder.with_suffix(".json")],
-                          capture_output=True, text=True, check=False)
+    done = subprocess.run([recipe, folder, str(PARTS), options.tool, *command], capture_output=True, text=True, check=False)
     stop.set()
     killer.join()
     if done.returncode not in (0, 1):
@@ -59,7 +60,7 @@ def in_pieces(command, pieces, folder, options):
 
 
 def oracle_and_methods(results):
-    """The time of the oracle and of each method a query, from results that have it, as those of pieces."""
+    """The time of the oracle and of each method a query, from results that have it, as those of parts."""
     sums = {}
     for of in results:
         for name, queries, ns in [("oracle", of["queries"], 1e3 * of["us_per_query"]),
@@ -78,18 +79,18 @@ def in_one_run(command, options, out):
 
 
 def split(file, folder):
-    """Write the arrays and labels of a file as shards into a folder. Return their sizes."""
+    """Write the arrays and labels of a file as files into a folder. Return their sizes."""
     import numpy  # which checking the documents does not need
 
     queries = numpy.load(file, mmap_mode="r")
     labels = json.loads((file.parent / "mma_bool" / f"{file.stem}_mma_bool.json").read_text())
     (folder / "mma_bool").mkdir(parents=True, exist_ok=True)
-    starts = range(0, len(queries), SHARD)
+    starts = range(0, len(queries), FILE)
     for i, start in enumerate(starts):
         name = f"{file.stem}-{i:05}"
-        (folder / "mma_bool" / f"{name}_mma_bool.json").write_text(json.dumps(labels[start:start + SHARD]))
-        numpy.save(folder / f"{name}.npy", queries[start:start + SHARD])
-    return [min(SHARD, len(queries) - start) for start in starts]
+        (folder / "mma_bool" / f"{name}_mma_bool.json").write_text(json.dumps(labels[start:start + FILE]))
+        numpy.save(folder / f"{name}.npy", queries[start:start + FILE])
+    return [min(FILE, len(queries) - start) for start in starts]
 
 
 def measure(options, run):
@@ -115,25 +116,19 @@ def measure(options, run):
     sampling = ["certify", store, *(word for name in SAMPLED for word in ("--method", name)), "--seconds",
                 str(2 if options.quick else SECONDS_OF_SAMPLES)]
     stepping = ["step", frames, "--earliest"]
-    runs = []
-    for name, command, pieces in (("judged", judging, sum(map(len, sizes))),
-                                  ("stepped", stepping, len(list(frames.glob("*.ply"))) - 1)):
-        print(f"touchstone {' '.join(map(str, command))} in {pieces} pieces", flush=True)
-        row = in_pieces(command, pieces, place / name, options)
-        row["pieces"] = pieces
-        if name == "judged":
-            pieces_ = [json.loads(file.read_text()) for file in sorted((place / name).glob("[0-9]*.json"))]
-            row |= {"ns": oracle_and_methods(pieces_), "bytes": sum(file.stat().st_size for file in store.rglob("*") if file.is_file())}
-        else:
-            steps = [piece["result"]["steps"][0] for piece in row.pop("result")["pieces"]]
-            row["result"] = {"steps": len(steps), "colliding": sum(not step["free"] for step in steps)}
-        row["command"] = "touchstone " + " ".join(
-            str(word).replace(str(place), "build/large") for word in command)
-        runs.append(row)
-    print(f"touchstone {' '.join(map(str, sampling))}", flush=True)
-    sampled = in_one_run(sampling, options, place / "sampled.json")
-    runs.append({"command": "touchstone " + " ".join(str(word).replace(str(place), "build/large") for word in sampling),
-                 "result": sampled, "ns": oracle_and_methods([sampled])})
-    runs[0]["recording_seconds"] = sum(json.loads((place / f"{scene.split()[0]}.json").read_text())["seconds"]["total"]
+
+    def told(command):
+        words = "touchstone " + " ".join(str(word).replace(str(place), "build/large") for word in command)
+        print(words, flush=True)
+        return words
+
+    judged = {"command": told(judging), **in_parts(judging, place / "judged", options), "pieces": sum(map(len, sizes)),
+              "bytes": sum(file.stat().st_size for file in store.rglob("*") if file.is_file())}
+    judged["ns"] = oracle_and_methods([json.loads(file.read_text()) for file in (place / "judged").glob("*.json")])
+    steps = {"command": told(stepping), "result": in_one_run(stepping, options, place / "stepped.json")["steps"]}
+    steps["result"] = {"steps": len(steps["result"]), "colliding": sum(not step["free"] for step in steps["result"])}
+    sampled = {"command": told(sampling), "result": in_one_run(sampling, options, place / "sampled.json")}
+    sampled["ns"] = oracle_and_methods([sampled["result"]])
+    judged["recording_seconds"] = sum(json.loads((place / f"{scene.split()[0]}.json").read_text())["seconds"]["total"]
                                        for scene in SCENES)
-    return runs
+    return [judged, steps, sampled]

@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# parallel.sh FOLDER WORKERS COMMAND…: a command of touchstone in pieces by GNU parallel, on this machine or, with
-# parallel's --sshloginfile, on others with the same file system. Workers that are killed are started again.
+# parallel.sh FOLDER PARTS COMMAND…: a command of touchstone in parts by GNU parallel, on this machine or, with
+# parallel's --sshloginfile, on others with the same file system. Parts that are killed run again. FOLDER/I.json is the
+# result of part I, FOLDER.json their sum.
 #
-# Example: parallel.sh run 4 touchstone certify queries --json all.json
+# Example: parallel.sh run 8 touchstone certify queries --method tight_inclusion
 set -euo pipefail
-folder=$1 workers=$2
+folder=$1 parts=$2
 shift 2
-# A shard ends with 1 for wrong answers, too; the status of the run is that of the merge.
-seq 0 $((workers - 1)) |
-  parallel --quote --jobs "$workers" --retries 3 --joblog "$folder.joblog" \
-    "$@" --threads 1 --resume "$folder" --shard "{}/$workers" >"$folder.log" || true
-exec "$1" merge "$folder"
+mkdir -p "$folder"
+# A part ends with 1 for wrong answers, too; the status of the run is that of the merge.
+seq 0 $((parts - 1)) |
+  parallel --quote --retries 3 --joblog "$folder.joblog" bash -c '"$@"; [ $? -le 1 ]' - \
+    "$@" --threads 1 --shard "{}/$parts" --json "$folder/{}.json" >"$folder.log" || true
+exec "$1" merge "$folder"/*.json --json "$folder.json"

@@ -39,7 +39,7 @@ using Progress = std::function<void(double)>;
 
 struct Arguments {
   SourceArguments sources;
-  PieceArguments pieces;
+  std::string shard;
   SolverArguments judged;
   double seconds = 0.0;
   std::string json_file;
@@ -113,7 +113,10 @@ class CertifyRun {
     proof_.close(sum_.proofs.certificates());
     nlohmann::json results = report::to_json(results_);
     results["interrupted"] = sum_.interrupted;
-    if (json_) json_.complete(io::json_document(results));
+    const bool is_complete =
+        !sum_.interrupted && (sum_.errors == 0 || arguments_.sources.keep_going);
+    write_results(
+        json_, std::move(results), arguments_.sources, [this] { return status(); }, is_complete);
     write_gate();
     view_.write(arguments_.judged.options);
     print_summary();
@@ -295,10 +298,10 @@ class CertifyRun {
     for (const std::string& warning : solvers_.warnings()) report_warning(warning);
   }
 
-  /// The status that follows from the solvers' responses; for a piece the merged run determines it.
+  /// The status that follows from the solvers' responses; for a part the sum of all determines it.
   [[nodiscard]] Status status_of_responses() const {
     Status status = Status::all_well;
-    if (io::interrupted() || arguments_.sources.is_piece) return status;
+    if (io::interrupted() || arguments_.sources.is_part()) return status;
     for (const jobs::MethodResult& method : sum_.methods) {
       if (method.judgement.missing != 0) continue;
       status = worse(status, status_of(method.name, Responses::of(method.judgement)));
@@ -362,18 +365,18 @@ void add(CLI::App& app, Status& status) {
   CLI::App* command = app.add_subcommand(
       "certify", "Decide queries exactly; compare answers and solvers with the truth");
   add_source_options(*command, arguments->sources);
-  add_piece_options(*command, arguments->pieces);
+  add_option(*command, "--shard", arguments->shard);
   add_solver_options(*command, arguments->judged);
   add_option(*command, "--results", arguments->judged.results);
   add_option(*command, "--exact", arguments->judged.exact);
-  add_option(*command, "--seconds", arguments->seconds);
+  add_option(*command, "--seconds", arguments->seconds)->excludes("--shard");
   command->option_defaults()->group("Output");
   add_option(*command, "--json", arguments->json_file);
   add_option(*command, "--truth", arguments->truth_file);
   add_option(*command, "--prove", arguments->proof_file);
   add_option(*command, "--view", arguments->view_file);
   add_option(*command, "--table", arguments->table);
-  add_option(*command, "--baseline", arguments->baseline_file);
+  add_option(*command, "--baseline", arguments->baseline_file)->excludes("--shard");
   add_option(*command, "--write-baseline", arguments->writes_baseline)->needs("--baseline");
   add_option(*command, "--badge", arguments->badge_file);
   set_help(*command,
@@ -386,10 +389,8 @@ void add(CLI::App& app, Status& status) {
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->judged);
     settle_query_limit(*command, arguments->seconds, arguments->judged);
-    status = run_in_pieces(*command, arguments->pieces, arguments->sources,
-                           {.outputs = {"--json", "--truth", "--prove"},
-                            .refused = {"--view", "--seconds", "--baseline", "--badge"}},
-                           [&] { return CertifyRun(*arguments).run(); });
+    set_shard(*command, arguments->shard, arguments->sources);
+    status = CertifyRun(*arguments).run();
   });
 }
 

@@ -23,7 +23,6 @@
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/result_files.hpp"
-#include "verify/cli/sharded_run.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/data/csv_dataset.hpp"
@@ -55,7 +54,6 @@ struct Arguments {
   double seconds = 0.0;
   std::uint64_t queries = 0;
   std::uint64_t seed = default_seed;
-  PieceArguments pieces;
   std::uint64_t most_findings = 20;
   std::string kind;
   std::vector<std::string> degree;
@@ -268,6 +266,7 @@ class FuzzRun {
     options_.only = arguments.sought();
     options_.corpus = read_corpus(arguments, files_);
     options_.shapes = chosen_shapes();
+    leave_out_others();
     options_.stop = &io::interrupted();
     options_.on_progress = [this](const fuzz::FuzzProgress& progress) { show(progress); };
     options_.on_finding = [this](const fuzz::Finding& finding) { add(finding); };
@@ -352,13 +351,31 @@ class FuzzRun {
     return result;
   }
 
-  [[noreturn]] void refuse(const std::string& degree) const {
-    const bool answers_elements = std::ranges::any_of(all_kinds, [&](Kind kind) {
-      return is_element(kind) && method_->info().terms.answers(kind);
+  /// Reports the queries of the corpus that the search cannot use.
+  void leave_out_others() {
+    const std::size_t count = std::erase_if(options_.corpus, [&](const base::AnyQuery& query) {
+      return std::ranges::find(options_.shapes, query.kind(), &QueryShape::kind) ==
+             options_.shapes.end();
     });
-    const std::string what = degree == "1" && answers_elements
-                                 ? "straight lines; add --kind for tetrahedra"
-                             : degree == "1"      ? "straight lines; add --degree for curves"
+    if (count != 0) {
+      report_warning(fmt::format("--corpus: left out: {} queries of other kinds", count));
+    }
+  }
+
+  [[noreturn]] void refuse(const std::string& degree) const {
+    const fast::Terms& terms = method_->info().terms;
+    const auto answers = [&terms](Kind one) { return terms.answers(one); };
+    if (std::ranges::none_of(kinds_of(arguments_.kind), answers)) {
+      std::vector<std::string_view> answered;
+      for (const Kind one : all_kinds) {
+        if (answers(one)) answered.push_back(to_string(one));
+      }
+      throw std::invalid_argument(
+          fmt::format("{} answers no {} queries; it takes --kind {}", method_->name(),
+                      arguments_.kind.empty() ? "vertex-face or edge-edge" : arguments_.kind,
+                      fmt::join(answered, " or ")));
+    }
+    const std::string what = degree == "1"        ? "straight lines; add --degree for curves"
                              : degree == rational ? "rational curves"
                                                   : "curves of degree " + degree;
     throw std::invalid_argument(fmt::format("{} answers no {}queries on {}", method_->name(),
@@ -418,23 +435,12 @@ class FuzzRun {
 
 // ---- The command line ---------------------------------------------------------------------------
 
-/// A piece for each shard, with a seed of its own.
-std::vector<jobs::Piece> pieces_of_seeds(const Arguments& arguments) {
-  std::vector<jobs::Piece> pieces;
-  for (std::size_t i = 0; i < shard_of(arguments.pieces).count; ++i) {
-    const std::string seed = std::to_string(arguments.seed + i);
-    pieces.push_back({.name = "seed " + seed, .files = {}, .arguments = {"--seed=" + seed}});
-  }
-  return pieces;
-}
-
 void add_search_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Search");
   add_option(command, "--seconds", arguments.seconds);
   add_option(command, "--queries", arguments.queries);
   add_option(command, "--seed", arguments.seed);
   add_option(command, "--degree", arguments.degree);
-  add_piece_options(command, arguments.pieces);
   add_option(command, "--most-findings", arguments.most_findings);
   add_option(command, "--only", arguments.only);
   add_option(command, "--kind", arguments.kind);
@@ -472,15 +478,6 @@ void add(CLI::App& app, Status& status) {
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->solver);
     settle_query_limit(*command, arguments->run_seconds(), arguments->solver);
-    if (!arguments->pieces.folder.empty()) {
-      status = run_pieces(*command, arguments->pieces,
-                          {.input = "--seed",
-                           .pieces = pieces_of_seeds(*arguments),
-                           .outputs = {"--json"},
-                           .refused = {"--out", "--view"}});
-      return;
-    }
-    arguments->seed += shard_of(arguments->pieces).index;
     status = FuzzRun(*arguments).run();
   });
 }

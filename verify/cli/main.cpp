@@ -54,6 +54,13 @@ bool report_unknown(const CLI::App& app, const std::string& word) {
   return true;
 }
 
+/// The reason of an error of usage, also of an option that takes one value and is given twice.
+std::string reason_of(const CLI::Error& error) {
+  const std::string reason = error.what();
+  const std::size_t end = reason.find(": At Most 1 required but received ");
+  return end == std::string::npos ? reason : reason.substr(0, end) + " is given more than once";
+}
+
 /// An interrupt before there was anything to keep.
 int report_interrupt() {
   touchstone::verify::cli::report_error("interrupted");
@@ -73,7 +80,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string(version()), "Print the version");
   // The message quotes the command line.
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return touchstone::verify::io::printable(error.what()) +
+    return touchstone::verify::io::printable(reason_of(error)) +
            "\nRun with --help for more information.\n";
   });
   app.require_subcommand(0, 1);

@@ -1,7 +1,9 @@
-// touchstone merge: the results of pieces as one.
+// touchstone merge: the results of the parts of a run as one.
 
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/option_table.hpp"
@@ -11,7 +13,7 @@ namespace touchstone::verify::cli::merge_command {
 namespace {
 
 struct Arguments {
-  std::string folder;
+  std::vector<std::filesystem::path> parts;
   std::string json_file;
 };
 
@@ -20,24 +22,19 @@ struct Arguments {
 void add(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
-      app.add_subcommand("merge", "Join the results of a run in pieces (--resume) into one");
+      app.add_subcommand("merge", "Add up the results of all parts of a run (--shard)");
   command->option_defaults()->group("Input");
-  add_option(*command, "FOLDER", arguments->folder);
+  add_option(*command, "parts", arguments->parts);
   command->option_defaults()->group("Output");
   add_option(*command, "--json", arguments->json_file);
-  set_help(
-      *command,
-      "touchstone merge run   # of touchstone certify data --shard 0/2 --resume run --json "
-      "all.json",
-      "Writes the files that the command line of the run named. The result has no times and "
-      "does not depend on the order of the pieces. A missing or damaged piece, one of another run "
-      "or version, and one with a changed input is an error that names it. Run it where the "
-      "pieces ran: their inputs are checked again.\n"
-      "Exit status: 0 success, 1 wrong answers or collisions in a piece, or a solver that "
-      "hangs at more than 1 % of all queries, 2 pieces are missing or invalid, or a "
-      "solver answers nothing, 130 interrupted (nothing is written).");
+  set_help(*command,
+           "touchstone merge run/*.json   # of certify data --shard I/N --json run/I.json",
+           "The sum has no times and means. A part that is missing or there twice, and one of "
+           "another run, is an error that names it: version, options, the contents of files that "
+           "options name, and the names and sizes of all inputs must agree.\n" +
+               std::string(answering_statuses));
   command->callback(
-      [arguments, &status] { status = merge_pieces(arguments->folder, arguments->json_file); });
+      [arguments, &status] { status = merge_shards(arguments->parts, arguments->json_file); });
 }
 
 }  // namespace touchstone::verify::cli::merge_command

@@ -59,7 +59,7 @@ std::vector<OptionRow> make_table() {
       {"--keep-going", "", {}, "Skip and count invalid queries and files (exit status 2)"},
       {"--threads", "N", Whole{0, INT_MAX}, "Cores to use (0: all)"},
       {"--seed", "N", Whole{}, "Seed of the queries", "stability"},
-      {"--seed", "N", Whole{}, "Seed of all queries; --shard I/N adds I", "fuzz"},
+      {"--seed", "N", Whole{}, "Seed of all queries", "fuzz"},
       {"--seed", "N", Whole{}, "Seed of the search for the worst error", "derive"},
       {"--seed", "N", Whole{}, "Seed of the built-in set"},
       {"--count", "N", Whole{1}, "Queries of each hardness, level and kind", "stability"},
@@ -88,18 +88,15 @@ std::vector<OptionRow> make_table() {
       {"--radii", "FILE", {}, "Lines GROUP,RADIUS: in contact within the sum of two radii, in l2"},
       {"--separations", "FILE", {}, "Lines GROUP,GROUP,DISTANCE, in place of the sum of two radii"},
 
-      // Runs in pieces; the last two are for their processes.
-      {"--shard", "I/N", {}, "Do part I of N, from 0 on; auto: as a Slurm array or mpirun says"},
-      {"--resume", "FOLDER", {}, "Run in pieces that are kept there, or go on with them (touchstone merge)"},
-      {"FOLDER", "", {}, "The folder of the pieces, as --resume named it", "merge", required},
-      {"--only-source", "", Whole{}, "", "", hidden},
-      {"--piece", "", {}, "", "", hidden},
+      // Parts of a run.
+      {"--shard", "I/N", {}, "Do part I of N, from 0 on (touchstone merge adds up the JSON of all); auto: as a Slurm array or mpirun says"},
+      {"parts", "FILE.json", {}, "The JSON of all parts of a run (--shard I/N --json FILE.json)", "merge", required},
 
       // Solvers.
       {"--method", "NAME", {}, "Only these; repeatable: " + solvers::method_names(), "report"},
       {"--method", "NAME", {}, "Built-in solver; repeatable: " + solvers::method_names()},
       {"--plugin", "LIB.so", {}, "Your solver: a shared library (touchstone/plugin.h); repeatable"},
-      {"--kinds", "KIND", kinds, "The plugin answers only these queries; repeatable"},
+      {"--answers-kinds", "KIND", kinds, "The plugin answers only these queries; repeatable"},
       {"--float-coordinates", "", {}, "The plugin takes float: round queries to float first, and judge by these"},
       {"--starts-apart{0}", "", Real{0.0, DBL_MAX}, "The plugin needs primitives that are apart at t=0; with =D, by more than the minimum separation plus D"},
       {"--times", "WHAT", OneOf{{"bounds", "estimates", "none"}}, "The plugin's times of impact: bounds, estimates or none"},
@@ -222,7 +219,6 @@ CLI::Option* finish_option(CLI::Option* option, const OptionRow& row) {
     option->check([&row](const std::string& text) { return fault_of_value(row.values, text); }, "");
   }
   if (row.form == OptionForm::required) option->required();
-  if (row.form == OptionForm::hidden) option->group("");
   if (row.form == OptionForm::pair) option->expected(2);
   if (row.form == OptionForm::usual && option->get_expected_max() > 1)
     option->allow_extra_args(false);

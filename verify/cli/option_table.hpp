@@ -56,8 +56,7 @@ enum class OptionForm : std::uint8_t {
   usual,     ///< optional, and with one value each time that it is given
   required,  ///< has to be given
   list,      ///< with one value or more each time
-  pair,      ///< with two values
-  hidden     ///< not in the help
+  pair       ///< with two values
 };
 
 /// An option of some commands. A name without "--" is that of positional arguments; an option whose
@@ -134,9 +133,9 @@ inline constexpr std::string_view judging_statuses =
 
 /// The same if a solver that does not answer counts as well.
 inline constexpr std::string_view answering_statuses =
-    "Exit status: 0 success, 1 wrong answers, or a solver that hangs at more than 1 % of its "
-    "queries, 2 bad input or usage, or a solver that answers nothing, 130 interrupted (results so "
-    "far are written).";
+    "Exit status: 0 success, 1 wrong answers, or a solver that hangs (docs/testing.md), 2 bad "
+    "input or "
+    "usage, or nothing asked or answered, 130 interrupted (results so far are written).";
 
 /// The exit statuses of a command that judges nothing.
 inline constexpr std::string_view writing_statuses =

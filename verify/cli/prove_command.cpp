@@ -36,7 +36,7 @@ using Progress = std::function<void(double)>;
 
 struct Arguments {
   SourceArguments sources;
-  PieceArguments pieces;
+  std::string shard;
   std::string proof_file;
   std::string json_file;
   std::string claim = "time_of_impact";
@@ -81,7 +81,10 @@ class ProveRun {
     } else {
       out_.close(sum_.proofs.certificates());
     }
-    if (json_) json_.complete(io::json_document(summary()));
+    const bool is_complete =
+        !sum_.interrupted && (reading_errors_ == 0 || arguments_.sources.keep_going);
+    write_results(
+        json_, summary(), arguments_.sources, [this] { return status(); }, is_complete);
     report_beyond_limits(sum_.proofs);
     print_summary();
     return status();
@@ -180,7 +183,7 @@ void add(CLI::App& app, Status& status) {
   CLI::App* command =
       app.add_subcommand("prove", "Write a proof of each verdict, for touchstone-check");
   add_source_options(*command, arguments->sources);
-  add_piece_options(*command, arguments->pieces);
+  add_option(*command, "--shard", arguments->shard);
   command->option_defaults()->group("Output");
   add_option(*command, "--prove", arguments->proof_file);
   add_option(*command, "--claim", arguments->claim);
@@ -192,9 +195,8 @@ void add(CLI::App& app, Status& status) {
            "A query whose proof exceeds the limits of the format is bad input.\n" +
                std::string(writing_statuses));
   command->callback([arguments, command, &status] {
-    status = run_in_pieces(*command, arguments->pieces, arguments->sources,
-                           {.outputs = {"--json", "--prove"}},
-                           [&] { return ProveRun(*arguments).run(); });
+    set_shard(*command, arguments->shard, arguments->sources);
+    status = ProveRun(*arguments).run();
   });
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -12,28 +13,24 @@
 #include <string_view>
 #include <utility>
 
-#include "verify/cli/files.hpp"
-#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/result_files.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
-#include "verify/generate/families.hpp"
+#include "verify/generate/random_stream.hpp"
+#include "verify/io/input_file.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/number_text.hpp"
-#include "verify/io/printable.hpp"
-#include "verify/io/sha256.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/jobs/pieces.hpp"
+#include "verify/judge/judgement.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 
-constexpr const char* shard_option = "--shard";
-constexpr const char* resume_option = "--resume";
+constexpr std::size_t most_bytes = std::size_t{1} << 31U;
 
 // ---- Shards -------------------------------------------------------------------------------------
 
@@ -69,97 +66,140 @@ Shard shard_of_environment() {
       "--shard auto: neither SLURM_ARRAY_TASK_ID nor OMPI_COMM_WORLD_RANK and _SIZE are set");
 }
 
-// ---- The plan -----------------------------------------------------------------------------------
+Shard shard_of(std::string_view text) {
+  if (text == "auto") return shard_of_environment();
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto index = io::number_from_text<std::size_t>(text.substr(0, slash));
+  const auto count =
+      io::number_from_text<std::size_t>(text.substr(std::min(slash + 1, text.size())));
+  if (index && count) return checked(*index, *count);
+  throw std::invalid_argument(fmt::format("--shard: '{}' is not I/N, as 0/4 or 3/4", text));
+}
 
-/// The identity of the program that makes results: its version, and its digest if the version does
-/// not identify the sources.
+// ---- What the parts of a run have in common -----------------------------------------------------
+
+std::string digest_of(std::string_view text) {
+  return fmt::format("{:016x}", generate::hash(text));
+}
+std::string digest_of_file(const fs::path& file) {
+  return digest_of(io::read_file(file, most_bytes));
+}
+
+/// The identity of the program: its version, and its digest if the version does not identify the
+/// sources.
 std::string program() {
   std::string text(version());
   if (!text.ends_with(')') || text.ends_with("-dirty)")) {
-    text += ", SHA-256 " + io::sha256_of_file("/proc/self/exe");
+    text += ", digest " + digest_of_file("/proc/self/exe");
   }
   return text;
 }
 
-/// The file, or the files of the folder; none if it is neither.
-std::vector<fs::path> files_below(const fs::path& path) {
-  if (fs::is_regular_file(path)) return {path};
-  std::vector<fs::path> files;
-  if (!fs::is_directory(path)) return files;
-  for (const auto& entry : fs::recursive_directory_iterator(path)) {
-    if (entry.is_regular_file()) files.push_back(entry.path());
+/// The options that results depend on, in the order of the help.
+std::vector<std::string> options_of(const CLI::App& command) {
+  static const std::set<std::string> others{"PATH",   "--shard", "--threads", "--show-output",
+                                            "--json", "--truth", "--prove",   "--view",
+                                            "--out",  "--table", "--badge"};
+  std::vector<std::string> options;
+  for (const CLI::Option* option : command.get_options()) {
+    if (others.contains(option->get_name())) continue;
+    for (const std::string& value : option->results()) {
+      options.push_back(option->get_name() + "=" + value);
+    }
   }
-  return files;
+  return options;
 }
 
-/// The options of the command line that results depend on, in the order of the help, and the files
-/// that they name.
-void set_options(const CLI::App& command, const PieceRun& run, jobs::Plan& plan) {
-  std::set<std::string> left_out{shard_option, resume_option, "--threads", run.input};
-  left_out.insert(run.outputs.begin(), run.outputs.end());
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_name();
-    if (option->count() == 0 || left_out.contains(name)) continue;
-    if (std::ranges::count(run.refused, name) != 0) {
-      throw std::invalid_argument(name + " does not work with --resume");
+/// The digests of the files that options name.
+json uses_of(const std::vector<std::string>& options) {
+  json uses = json::object();
+  for (const std::string& option : options) {
+    const std::string file = option.substr(option.find('=') + 1);
+    if (fs::is_regular_file(file)) uses[file] = digest_of_file(file);
+  }
+  return uses;
+}
+
+/// The digest of the names and sizes of all inputs, and of their companions.
+std::string inputs_of(const SourceArguments& sources) {
+  std::string text;
+  for (const fs::path& file : data::find_datasets(sources.paths)) {
+    text += fmt::format("{}\n{}\n", file.string(), fs::file_size(file));
+    for (const fs::path& companion : data::find_ground_truth_files(file)) {
+      text += fmt::format("{}\n{}\n", companion.string(), fs::file_size(companion));
     }
-    const std::vector<std::string> values = option->results();
-    for (const std::string& value : values) {
-      const bool is_flag = option->get_expected_min() == 0;
-      plan.options.push_back(is_flag && value == "true" ? name : fmt::format("{}={}", name, value));
-      for (const fs::path& file : files_below(value)) {
-        plan.uses[file.string()] = io::sha256_of_file(file);
+  }
+  return digest_of(text);
+}
+
+// ---- The sum ------------------------------------------------------------------------------------
+
+/// Numbers that cannot be added, as times and means.
+bool is_left_out(std::string_view key) {
+  return key.find("_per_") != std::string_view::npos || key.ends_with("seconds") ||
+         key == "file_bytes";
+}
+bool is_greatest(std::string_view key) { return key == "max" || key.starts_with("greatest"); }
+bool is_list(std::string_view key) {
+  static constexpr std::array<std::string_view, 4> lists{"files", "mismatches", "wrong_answers",
+                                                         "beyond_limits"};
+  return std::ranges::find(lists, key) != lists.end();
+}
+
+json without_means(const json& source) {
+  if (source.is_array()) {
+    json result = json::array();
+    for (const json& item : source) result.push_back(without_means(item));
+    return result;
+  }
+  if (!source.is_object()) return source;
+  json result = json::object();
+  for (const auto& [key, value] : source.items()) {
+    if (!is_left_out(key)) result[key] = without_means(value);
+  }
+  return result;
+}
+
+/// Adds the result of the next part. Counts are summed, of greatest values the greater is kept,
+/// lists are joined, and everything else must agree.
+/// \throws std::invalid_argument that names the difference.
+void add(json& sum, const json& next, const std::string& key) {
+  if (sum.is_object() && sum.contains("histogram")) {
+    judge::ToiErrors errors = judge::toi_errors_from_json(sum);
+    sum = judge::to_json(errors += judge::toi_errors_from_json(next));
+  } else if (key == "toi_error" && (sum.is_null() || next.is_null())) {
+    if (sum.is_null()) sum = next;
+  } else if (key == "separation") {
+    if (sum != next) sum = nullptr;  // none is common
+  } else if (sum.is_array() && next.is_array() && (sum.empty() || next.empty())) {
+    if (sum.empty()) sum = next;  // a part without sources has no methods
+  } else if (sum.is_object() && next.is_object()) {
+    for (const auto& [name, value] : next.items()) {
+      if (sum.contains(name)) {
+        add(sum[name], value, name);
+      } else {
+        sum[name] = value;
       }
     }
+  } else if (sum.is_array() && next.is_array() && is_list(key)) {
+    sum.insert(sum.end(), next.begin(), next.end());
+  } else if (sum.is_array() && next.is_array() && sum.size() == next.size()) {
+    for (std::size_t i = 0; i < sum.size(); ++i) add(sum[i], next[i], key);
+  } else if (is_greatest(key)) {
+    if (io::number_from_json(sum) < io::number_from_json(next)) sum = next;
+  } else if (sum.is_number_integer() && next.is_number_integer()) {
+    sum = sum.get<std::int64_t>() + next.get<std::int64_t>();
+  } else if (sum != next) {
+    throw std::invalid_argument(key + " is " + next.dump() + ", elsewhere " + sum.dump());
   }
-  for (const std::string& output : run.outputs) {
-    const CLI::Option* const option = command.get_option(output);
-    if (option->count() != 0) plan.outputs[output] = option->as<std::string>();
-  }
-  // The counts of a piece are always needed.
-  plan.outputs.try_emplace(std::string(jobs::json_option), "");
 }
 
-/// Runs a piece in a process of its own. Returns its exit status.
-int do_piece(const jobs::PieceFolder& folder, std::size_t number, const std::string& threads) {
-  const jobs::Plan& plan = folder.plan();
-  const jobs::Piece& piece = plan.pieces[number];
-  return folder.finish(number, [&](const std::map<std::string, fs::path>& outputs) {
-    std::vector<std::string> arguments{"touchstone", plan.command};
-    arguments.insert(arguments.end(), plan.options.begin(), plan.options.end());
-    if (!threads.empty()) arguments.push_back("--threads=" + threads);
-    for (const auto& [option, file] : outputs) arguments.push_back(option + "=" + file.string());
-    arguments.insert(arguments.end(), piece.arguments.begin(), piece.arguments.end());
-    return jobs::run_own_program(std::move(arguments));
-  });
-}
-
-/// The same, with a report of an error.
-int try_piece(const jobs::PieceFolder& folder, std::size_t number, const std::string& threads) {
-  std::string reason;
-  int status = static_cast<int>(Status::bad_input);
-  try {
-    status = do_piece(folder, number, threads);
-    reason = fmt::format("ended with status {}", status);
-  } catch (const std::exception& error) {
-    reason = error.what();
-  }
-  if (status > static_cast<int>(Status::wrong_answers) && !io::interrupted()) {
-    report_error(fmt::format("piece {}, {}: {}; it is not done", number,
-                             folder.plan().pieces[number].name, reason));
-  }
-  return status;
-}
-
-// ---- The merged result --------------------------------------------------------------------------
-
-std::string number_text(const nlohmann::json& json, const char* key) {
-  return json.contains(key) ? json.at(key).dump() : "0";
+std::string number_text(const json& of, const char* key) {
+  return of.contains(key) ? of.at(key).dump() : "0";
 }
 
 /// The main counts: of certificates, or of queries with a line for each method.
-std::string summary_text(const nlohmann::json& total) {
-  if (total.contains("pieces")) return {};
+std::string summary_text(const json& total) {
   if (total.contains("certificates")) {
     return fmt::format("{} certificates: {} no collision, {} collision, {} time of impact\n",
                        number_text(total, "certificates"), number_text(total, "no_collision"),
@@ -179,7 +219,7 @@ std::string summary_text(const nlohmann::json& total) {
   }
   text += '\n';
   if (!total.contains("methods")) return text;
-  for (const nlohmann::json& method : total.at("methods")) {
+  for (const json& method : total.at("methods")) {
     text += fmt::format(
         "{}: {} judged, {} false negatives, {} false positives, {} late toi, {} early upper, {} "
         "undecided, {} errors\n",
@@ -191,16 +231,9 @@ std::string summary_text(const nlohmann::json& total) {
   return text;
 }
 
-void write_merged_text(const jobs::PieceFolder& folder, const std::string& option,
-                       const std::string& name, Files& files) {
-  CertificatesFile output(files, name, "");
-  folder.merged_text(option, [&](std::string_view text) { output.write(text); });
-  output.close(std::string_view());
-}
-
-/// The status that follows from the solvers' responses to the queries of all pieces.
-Status status_of_responses(const nlohmann::json& total) {
-  const auto responses = [](const nlohmann::json& counts) -> Responses {
+/// The status that follows from the solvers' responses to the queries of all parts.
+Status status_of_responses(const json& total) {
+  const auto responses = [](const json& counts) -> Responses {
     return {.asked = counts.at("queries"),
             .hangs = counts.at("failures").at(judge::to_string(judge::Fault::hang)),
             .errors = counts.at("errors"),
@@ -212,149 +245,135 @@ Status status_of_responses(const nlohmann::json& total) {
   if (total.contains("method")) {
     return status_of(total.at("method").get<std::string>(), responses(total));
   }
-  for (const nlohmann::json& method : total.value("methods", nlohmann::json::array())) {
+  for (const json& method : total.value("methods", json::array())) {
     status = worse(status, status_of(method.at("name").get<std::string>(), responses(method)));
   }
   return status;
 }
 
-/// Writes the merged files, and prints a summary. \pre the folder has no faults
-Status write_merged(const jobs::PieceFolder& folder, const std::string& json_file) {
-  Files files;
-  const nlohmann::json total = folder.merged_json();
-  for (const auto& [option, name] : folder.plan().outputs) {
-    if (option == jobs::json_option) {
-      Output(files, json_file.empty() ? name : json_file).complete(io::json_document(total));
-    } else {
-      write_merged_text(folder, option, name, files);
+// ---- Parts --------------------------------------------------------------------------------------
+
+struct Part {
+  fs::path file;
+  json shard;
+  json result;
+};
+
+/// \throws std::runtime_error if it is not that of a part
+Part read_part(const fs::path& file) {
+  Part part{.file = file, .shard = {}, .result = io::read_json(file, most_bytes)};
+  try {
+    part.shard = part.result.at("shard");
+    part.result.erase("shard");
+    static_cast<void>(part.shard.at("status").get<int>());
+    if (part.shard.at("index").get<std::size_t>() < part.shard.at("count").get<std::size_t>()) {
+      return part;
     }
+  } catch (const json::exception&) {
+    // as below
   }
-  io::print(files.summary_stream(),
-            fmt::format("{} pieces\n{}", folder.plan().pieces.size(), summary_text(total)));
-  const Status status = worse(static_cast<Status>(folder.status()), status_of_responses(total));
-  return files.has_failed() ? Status::bad_input : status;
+  throw std::runtime_error(file.string() +
+                           ": no result of a part; --shard I/N --json FILE writes them");
 }
 
-/// The pieces of the command line's queries: the sources that for_each_source passes on.
-std::vector<jobs::Piece> pieces_of(const SourceArguments& sources) {
-  std::vector<jobs::Piece> pieces;
-  if (sources.built_in_set()) {
-    const std::vector<BuiltInSource> families = built_in_sources(sources);
-    for (std::size_t i = 0; i < families.size(); ++i) {
-      pieces.push_back(
-          {.name = fmt::format("{} {}", families[i].family.name, to_string(families[i].kind)),
-           .files = {},
-           .arguments = {"--piece", fmt::format("--only-source={}", i)}});
-    }
-    return pieces;
+/// \throws std::runtime_error if they are of two runs
+void require_one_run(const Part& first, const Part& other) {
+  for (const char* what : {"program", "command", "options", "uses", "inputs", "count"}) {
+    const json a = first.shard.value(what, json()), b = other.shard.value(what, json());
+    if (a == b) continue;
+    throw std::runtime_error(fmt::format("{}: of another run than {}: {} {}, not {}",
+                                         other.file.string(), first.file.string(), what, b.dump(),
+                                         a.dump()));
   }
-  std::set<fs::path> seen;
-  for (const fs::path& path : sources.paths) {
-    for (const fs::path& file : data::find_datasets({&path, 1})) {
-      if (!seen.insert(fs::weakly_canonical(file)).second) continue;
-      jobs::Piece piece{
-          .name = file.string(), .files = {file}, .arguments = {"--piece", "--", file.string()}};
-      for (const fs::path& companion : data::find_ground_truth_files(file)) {
-        piece.files.push_back(companion);
+}
+
+/// The parts in order. \throws std::runtime_error if they are not those of one run, each once.
+std::map<std::size_t, Part> read_parts(const std::vector<fs::path>& files) {
+  std::map<std::size_t, Part> parts;
+  for (const fs::path& file : files) {
+    Part part = read_part(file);
+    if (!parts.empty()) require_one_run(parts.begin()->second, part);
+    const auto index = part.shard.at("index").get<std::size_t>();
+    const auto [place, is_new] = parts.try_emplace(index, std::move(part));
+    if (!is_new) {
+      throw std::runtime_error(fmt::format("{}: has part {}, as has {}", file.string(), index,
+                                           place->second.file.string()));
+    }
+  }
+  const auto count = parts.begin()->second.shard.at("count").get<std::size_t>();
+  std::size_t missing = 0;
+  while (parts.contains(missing)) ++missing;
+  if (missing == count) return parts;
+  const std::size_t others = count - parts.size() - 1;
+  throw std::runtime_error(fmt::format("part {} of {} is missing{}: nothing is added up", missing,
+                                       count,
+                                       others == 0 ? "" : fmt::format(", and {} others", others)));
+}
+
+json sum_of(const std::map<std::size_t, Part>& parts) {
+  json sum;
+  for (const auto& [index, part] : parts) {
+    try {
+      const json next = without_means(part.result);
+      if (sum.is_null()) {
+        sum = next;
+      } else {
+        add(sum, next, "");
       }
-      pieces.push_back(std::move(piece));
+    } catch (const std::exception& error) {
+      throw std::runtime_error(part.file.string() + ": " + io::reason_of(error));
     }
   }
-  return pieces;
+  return sum;
 }
 
 }  // namespace
 
-void add_piece_options(CLI::App& command, PieceArguments& arguments) {
-  add_option(command, shard_option, arguments.shard);
-  add_option(command, resume_option, arguments.folder);
+void set_shard(const CLI::App& command, const std::string& shard, SourceArguments& sources) {
+  if (shard.empty()) return;
+  sources.shard = shard_of(shard);
+  const std::vector<std::string> options = options_of(command);
+  sources.shard_record = json{{"index", sources.shard.index}, {"count", sources.shard.count},
+                              {"program", program()},         {"command", command.get_name()},
+                              {"options", options},           {"uses", uses_of(options)},
+                              {"inputs", inputs_of(sources)}}
+                             .dump();
 }
 
-Shard shard_of(const PieceArguments& arguments) {
-  if (arguments.shard.empty()) return {};
-  if (arguments.shard == "auto") return shard_of_environment();
-  const std::string_view text = arguments.shard;
-  const std::size_t slash = std::min(text.find('/'), text.size());
-  const auto index = io::number_from_text<std::size_t>(text.substr(0, slash));
-  const auto count =
-      io::number_from_text<std::size_t>(text.substr(std::min(slash + 1, text.size())));
-  if (!index || !count) {
-    throw std::invalid_argument("--shard: '" + arguments.shard + "' is not I/N, as 0/4 or 3/4");
+void write_results(Output& file, nlohmann::json results, const SourceArguments& sources,
+                   const std::function<Status()>& status, bool is_complete) {
+  if (!file) return;
+  if (sources.is_part()) {
+    results["shard"] = json::parse(sources.shard_record);
+    results["shard"]["status"] = static_cast<int>(status());
   }
-  return checked(*index, *count);
+  file.write(io::json_document(results));
+  if (is_complete || !sources.is_part()) {
+    file.close();
+  } else {
+    file.close_incomplete();
+  }
 }
 
-Status run_pieces(const CLI::App& command, const PieceArguments& arguments, const PieceRun& run) {
-  jobs::Plan plan{.program = program(),
-                  .command = command.get_name(),
-                  .options = {},
-                  .uses = {},
-                  .outputs = {},
-                  .pieces = run.pieces};
-  set_options(command, run, plan);
-  const Shard shard = shard_of(arguments);
-  const jobs::PieceFolder folder(arguments.folder, std::move(plan));
-  const CLI::Option* const threads = command.get_option_no_throw("--threads");
-  const std::string thread_count =
-      threads != nullptr && threads->count() != 0 ? threads->as<std::string>() : "";
-  io::ProgressBar bar(command.get_name());
-  int worst = 0;
-  const std::size_t count = run.pieces.size();
-  for (std::size_t i = 0; i < count && !io::interrupted(); ++i) {
-    bar.update(static_cast<double>(i) / static_cast<double>(count));
-    if (!shard.contains(i) || folder.fault(i).empty()) continue;
-    worst = std::max(worst, try_piece(folder, i, thread_count));
+Status merge_shards(const std::vector<fs::path>& parts, const std::string& json_file) {
+  Files files;
+  files.add_inputs(parts);
+  Output output(files, json_file);
+  const std::map<std::size_t, Part> all = read_parts(parts);
+  const json total = sum_of(all);
+  output.complete_with([&] { return io::json_document(total); });
+  io::print(files.summary_stream(),
+            fmt::format("{} {}\n{}", all.size(), all.size() == 1 ? "part" : "parts",
+                        summary_text(total)));
+  Status status = status_of_responses(total);
+  for (const auto& [index, part] : all) {
+    status = worse(status, part.shard.at("status").get<Status>());
   }
-  bar.clear();
-  if (io::interrupted()) return Status::interrupted;
-  const std::size_t faults = folder.faults().size();
-  if (faults == 0) return write_merged(folder, "");
-  const std::size_t left = faults - folder.foreign_files().size();
-  io::print(stdout,
-            fmt::format("{} of {} pieces are done, not yet {}: when all are, touchstone merge {}\n",
-                        count - left, count, left, io::printable(arguments.folder.string())));
-  return std::min(static_cast<Status>(worst), Status::bad_input);
-}
-
-Status run_in_pieces(const CLI::App& command, const PieceArguments& arguments,
-                     SourceArguments& sources, PieceRun in_pieces,
-                     const std::function<Status()>& run) {
-  if (!arguments.folder.empty()) {
-    in_pieces.pieces = pieces_of(sources);
-    return run_pieces(command, arguments, in_pieces);
+  if (total.value("queries", total.value("certificates", 0U)) == 0U) {
+    report_error("no query in any part: nothing was asked");
+    status = worse(status, Status::bad_input);
   }
-  sources.shard = shard_of(arguments);
-  if (sources.shard.count == 1 || sources.built_in_set()) return run();
-  // The files of all paths are counted together: some commands open one path after the other.
-  const std::vector<jobs::Piece> pieces = pieces_of(sources);
-  sources.paths.clear();
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (sources.shard.contains(i)) sources.paths.push_back(pieces[i].files.front());
-  }
-  if (sources.paths.empty()) {
-    report_warning(
-        fmt::format("--shard: {} files, none for part {}", pieces.size(), sources.shard.index));
-    return Status::all_well;
-  }
-  sources.shard = {};
-  return run();
-}
-
-Status merge_pieces(const fs::path& path, const std::string& json_file) {
-  const jobs::PieceFolder folder(path);
-  if (folder.plan().program != program()) {
-    report_error(fmt::format("{}: made by version {}, this is version {}", path.string(),
-                             folder.plan().program, program()));
-    return Status::bad_input;
-  }
-  const std::vector<std::string> faults = folder.faults();
-  for (const std::string& fault : faults) report_error(fault);
-  if (!faults.empty()) {
-    report_error(fmt::format("{} of {} pieces: nothing is merged", faults.size(),
-                             folder.plan().pieces.size()));
-    return Status::bad_input;
-  }
-  return write_merged(folder, json_file);
+  return files.has_failed() ? Status::bad_input : status;
 }
 
 }  // namespace touchstone::verify::cli

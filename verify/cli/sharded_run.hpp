@@ -1,58 +1,45 @@
 #pragma once
 
 /// \file
-/// Runs over many machines and in pieces (verify/jobs/pieces.hpp): the options --shard and --resume
-/// of commands, which run themselves as a process for each piece.
+/// Parts of a run on many machines: the option --shard, and the sum of their results (touchstone
+/// merge). Starting parts, and starting those again that failed, is the work of others (Slurm, MPI,
+/// Dask, GNU parallel; examples/cluster).
+///
+/// The JSON of a part has `shard`: its `index` of `count` parts, its exit `status`, and what the
+/// parts of one run have in common: `program`, `command`, `options`, digests of the files that
+/// options name (`uses`), and a digest of the names and sizes of all inputs (`inputs`). Digests
+/// find mistakes, no forgeries. The JSON of a part that did not come to its end has another name,
+/// so that it cannot be taken for a whole one.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "verify/cli/commands.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/cli/sources.hpp"
-#include "verify/jobs/pieces.hpp"
 
 namespace touchstone::verify::cli {
 
-struct PieceArguments {
-  std::string shard;             ///< "I/N", "auto" or empty
-  std::filesystem::path folder;  ///< of the results; empty: no pieces
-};
+/// Sets the part of the sources that a command does. "auto" is that of SLURM_ARRAY_TASK_ID and
+/// _COUNT if the array has the tasks 0 to N-1, or of OMPI_COMM_WORLD_RANK and _SIZE.
+/// \param shard "I/N", "auto", or empty: all sources
+/// \throws std::invalid_argument if it is none of these.
+void set_shard(const CLI::App& command, const std::string& shard, SourceArguments& sources);
 
-/// Adds --shard and --resume. The arguments must live until the command line is parsed.
-void add_piece_options(CLI::App& command, PieceArguments& arguments);
+/// Completes the JSON of a run, if it has one.
+/// \param status of a part
+/// \param is_complete false for a part that did not come to its end
+void write_results(Output& file, nlohmann::json results, const SourceArguments& sources,
+                   const std::function<Status()>& status, bool is_complete);
 
-/// The shard of the command line; "auto": of SLURM_ARRAY_TASK_ID and _COUNT if the array has the
-/// tasks 0 to N-1, or of OMPI_COMM_WORLD_RANK and _SIZE.
-/// \throws std::invalid_argument if it is none.
-[[nodiscard]] Shard shard_of(const PieceArguments& arguments);
-
-/// The run of a command in pieces.
-struct PieceRun {
-  /// The argument that pieces stand for.
-  std::string input = "PATH";
-  std::vector<jobs::Piece> pieces = {};
-  /// Options that name output files.
-  std::vector<std::string> outputs = {};
-  /// Options that name other outputs, which pieces do not have.
-  std::vector<std::string> refused = {};
-};
-
-/// Runs the unfinished pieces of the shard, in a process each, and merges the results if all are
-/// there. Errors are reported on standard error. \pre arguments.folder is not empty
-[[nodiscard]] Status run_pieces(const CLI::App& command, const PieceArguments& arguments,
-                                const PieceRun& run);
-
-/// Runs the command on the sources of its shard; with a folder in pieces, which are the sources.
-/// \param in_pieces without pieces
-[[nodiscard]] Status run_in_pieces(const CLI::App& command, const PieceArguments& arguments,
-                                   SourceArguments& sources, PieceRun in_pieces,
-                                   const std::function<Status()>& run);
-
-/// Writes the results of all pieces as one, to the files that the run's command line named; a
-/// summary goes to standard output. \param json_file Instead of the named JSON file, if not empty.
-[[nodiscard]] Status merge_pieces(const std::filesystem::path& path, const std::string& json_file);
+/// Adds up the results of all parts of a run, without times and means, and prints a summary.
+/// \param json_file for the sum; may be empty
+/// \throws std::runtime_error if they are not all parts of one run, each once.
+[[nodiscard]] Status merge_shards(const std::vector<std::filesystem::path>& parts,
+                                  const std::string& json_file);
 
 }  // namespace touchstone::verify::cli

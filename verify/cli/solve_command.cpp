@@ -36,7 +36,7 @@ using Progress = std::function<void(double)>;
 
 struct Arguments {
   SourceArguments sources;
-  PieceArguments pieces;
+  std::string shard;
   SolverArguments solver;
   std::string out_file;
   std::string json_file;
@@ -102,7 +102,10 @@ class SolveRun {
     } else {
       out_.close();
     }
-    if (json_) json_.complete(io::json_document(summary()));
+    const bool is_complete =
+        !sum_.interrupted && (reading_errors_ == 0 || arguments_.sources.keep_going);
+    write_results(
+        json_, summary(), arguments_.sources, [this] { return status(); }, is_complete);
     report_unplaced_crashes(solver_.name(), asked_.unplaced_crashes);
     solvers_.report_output(arguments_.solver.show_output);
     print_summary();
@@ -200,7 +203,7 @@ class SolveRun {
       return Status::bad_input;
     }
     if (io::interrupted()) return Status::interrupted;
-    if (arguments_.sources.is_piece) return Status::all_well;
+    if (arguments_.sources.is_part()) return Status::all_well;
     if (asked_.queries + unasked() == 0) return status_of_queries(arguments_.sources, 0);
     return status_of(solver_.name(),
                      {.asked = asked_.queries,
@@ -229,21 +232,19 @@ void add(CLI::App& app, Status& status) {
   CLI::App* command =
       app.add_subcommand("solve", "Write the answers of a solver to all queries as CSV");
   add_source_options(*command, arguments->sources);
-  add_piece_options(*command, arguments->pieces);
+  add_option(*command, "--shard", arguments->shard);
   add_solver_options(*command, arguments->solver);
   add_option(*command, "--t-max", arguments->solver.options.t_max);
   command->option_defaults()->group("Output");
   add_option(*command, "--out", arguments->out_file);
   add_option(*command, "--json", arguments->json_file);
-  set_help(
-      *command, "touchstone solve --plugin ./libsolver.so data/handcrafted --out answers.csv",
-      "Exit status: 0 success, 1 the solver hangs at more than 1 % of its queries, 2 bad input "
-      "or usage, or it answers nothing, 130 interrupted (results so far are written).");
+  set_help(*command, "touchstone solve --plugin ./libsolver.so data/handcrafted --out answers.csv",
+           "Exit status: 0 success, 1 the solver hangs (docs/testing.md), 2 bad input or usage, or "
+           "nothing asked or answered, 130 interrupted (results so far are written).");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->solver);
-    status =
-        run_in_pieces(*command, arguments->pieces, arguments->sources,
-                      {.outputs = {"--json", "--out"}}, [&] { return SolveRun(*arguments).run(); });
+    set_shard(*command, arguments->shard, arguments->sources);
+    status = SolveRun(*arguments).run();
   });
 }
 

@@ -52,7 +52,7 @@ void add_solver_options(CLI::App& command, SolverArguments& arguments) {
 void add_plugin_option(CLI::App& command, SolverArguments& arguments) {
   solvers::TermsChanges& terms = arguments.terms;
   add_option(command, "--plugin", arguments.plugins);
-  add_option(command, "--kinds", arguments.kinds)->each([&terms](const std::string& name) {
+  add_option(command, "--answers-kinds", arguments.kinds)->each([&terms](const std::string& name) {
     if (!terms.kinds) terms.kinds.emplace().fill(false);
     terms.kinds->at(static_cast<std::size_t>(kind_from_string(name))) = true;
   });

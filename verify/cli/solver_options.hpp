@@ -73,7 +73,7 @@ struct SolverArguments {
 /// line is parsed.
 void add_solver_options(CLI::App& command, SolverArguments& arguments);
 
-/// Adds --plugin, and the terms of the promises of plugins: --kinds, --starts-apart,
+/// Adds --plugin, and the terms of the promises of plugins: --answers-kinds, --starts-apart,
 /// --float-coordinates, --times, --time-error.
 void add_plugin_option(CLI::App& command, SolverArguments& arguments);
 

@@ -37,15 +37,31 @@ class TotalProgress {
   double sources_;
 };
 
+/// A family of the built-in set, and a kind of query that it has.
+struct BuiltInSource {
+  generate::Family family;
+  Kind kind;
+};
+
+std::vector<BuiltInSource> built_in_sources(const SourceArguments& arguments) {
+  std::vector<BuiltInSource> sources;
+  for (const generate::Family& family :
+       generate::families(arguments.separation.given(), arguments.degrees)) {
+    for (const Kind kind : kinds_of(arguments.kind)) {
+      if (generate::supports(family, kind)) sources.push_back({family, kind});
+    }
+  }
+  if (sources.empty()) refuse_kind(arguments.kind);
+  return sources;
+}
+
 void for_each_family(const SourceArguments& arguments, const SourceHandlers& handlers) {
   const Separation separation = arguments.separation.given();
   require_contact_for("--min-separation", !is_zero(separation), arguments.kind);
   const std::vector<BuiltInSource> all = built_in_sources(arguments);
   std::vector<BuiltInSource> sources;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (arguments.shard.contains(i) && arguments.only_source.value_or(i) == i) {
-      sources.push_back(all[i]);
-    }
+    if (arguments.shard.contains(i)) sources.push_back(all[i]);
   }
   TotalProgress progress(handlers.title, sources.size());
   for (std::size_t i = 0; i < sources.size() && !handlers.stopped(); ++i) {
@@ -73,7 +89,7 @@ class LeftOutReport {
   std::size_t count_ = 0;
 };
 
-/// The dataset files of all paths, each once; empty if stopped.
+/// The dataset files of all paths, each once, those of the shard; empty if stopped.
 std::vector<fs::path> find_files(const SourceArguments& arguments, Files& record,
                                  const SourceHandlers& handlers) {
   LeftOutReport left_out;
@@ -84,7 +100,8 @@ std::vector<fs::path> find_files(const SourceArguments& arguments, Files& record
     try {
       for (const fs::path& file : data::find_datasets({&path, 1}, on_left_out)) {
         record.add_dataset(file);
-        if (seen.insert(fs::weakly_canonical(file)).second) files.push_back(file);
+        if (!seen.insert(fs::weakly_canonical(file)).second) continue;
+        if (arguments.shard.contains(seen.size() - 1)) files.push_back(file);
       }
     } catch (const io::DatasetError& error) {
       handlers.fail(path, error);
@@ -116,18 +133,6 @@ void for_each_file(const SourceArguments& arguments, Files& record,
 
 }  // namespace
 
-std::vector<BuiltInSource> built_in_sources(const SourceArguments& arguments) {
-  std::vector<BuiltInSource> sources;
-  for (const generate::Family& family :
-       generate::families(arguments.separation.given(), arguments.degrees)) {
-    for (const Kind kind : kinds_of(arguments.kind)) {
-      if (generate::supports(family, kind)) sources.push_back({family, kind});
-    }
-  }
-  if (sources.empty()) refuse_kind(arguments.kind);
-  return sources;
-}
-
 void refuse_kind(const std::string& kind) {
   throw std::invalid_argument(
       "no chosen family has " + (kind.empty() ? "vertex-face or edge-edge" : kind) +
@@ -154,8 +159,6 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
   add_option(command, "--count", arguments.count);
   add_option(command, "--degree", arguments.degrees);
   add_separation_options(command, arguments.separation);
-  add_option(command, "--only-source", arguments.only_source);
-  add_option(command, "--piece", arguments.is_piece);
 }
 
 Separation separation_for(const SourceArguments& arguments, const data::QuerySource& source) {
@@ -198,7 +201,7 @@ void until_stopped(Files& files, const std::function<bool()>& has_results,
 }
 
 Status status_of_queries(const SourceArguments& arguments, std::uint64_t queries) {
-  if (queries != 0 || arguments.shard.count > 1 || io::interrupted()) return Status::all_well;
+  if (queries != 0 || arguments.is_part() || io::interrupted()) return Status::all_well;
   report_error(arguments.built_in_set()
                    ? "no query was asked"
                    : arguments.paths.front().string() + ": no query: nothing was asked");

@@ -51,22 +51,13 @@ struct SourceArguments {
   SeparationArguments separation = {};
   /// The part of the sources that is used.
   Shard shard = {};
-  /// If set, only the source of that number of the built-in set is used (built_in_sources).
-  std::optional<std::size_t> only_source = std::nullopt;
-  /// True for a piece of another run.
-  bool is_piece = false;
+  /// The record of the part, as JSON (sharded_run.hpp); empty if the run is no part.
+  std::string shard_record = {};
 
   /// Without a path the built-in set is used.
   [[nodiscard]] bool built_in_set() const { return paths.empty(); }
+  [[nodiscard]] bool is_part() const { return !shard_record.empty(); }
 };
-
-/// A family of the built-in set, and a kind of query that it has.
-struct BuiltInSource {
-  generate::Family family;
-  Kind kind;
-};
-/// \throws std::invalid_argument if there is none.
-[[nodiscard]] std::vector<BuiltInSource> built_in_sources(const SourceArguments& arguments);
 
 /// \throws std::invalid_argument, as no family of the built-in set is left for this kind.
 [[noreturn]] void refuse_kind(const std::string& kind);

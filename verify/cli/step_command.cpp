@@ -20,7 +20,6 @@
 #include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/result_files.hpp"
-#include "verify/cli/sharded_run.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
@@ -36,7 +35,6 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::vector<fs::path> frames;
-  PieceArguments pieces;
   SeparationArguments separation;
   jobs::StepCheckOptions check;
   GroupArguments groups;
@@ -201,26 +199,9 @@ class StepRun {
   report::StepReport report_;
 };
 
-/// A piece for each step between two files.
-std::vector<jobs::Piece> pieces_of_frames(const Arguments& arguments) {
-  const std::vector<fs::path> files = frame_files(arguments.frames);
-  if (files.size() < 2) {
-    throw std::runtime_error("step: --resume needs each frame in a file of its own");
-  }
-  std::vector<jobs::Piece> pieces;
-  for (std::size_t i = 0; i + 1 < files.size(); ++i) {
-    const std::vector<fs::path> step{files[i], files[i + 1]};
-    pieces.push_back({.name = files[i].string() + " to " + files[i + 1].filename().string(),
-                      .files = step,
-                      .arguments = {"--", step.front().string(), step.back().string()}});
-  }
-  return pieces;
-}
-
 void add_input_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Input");
   add_option(command, "frames", arguments.frames);
-  add_piece_options(command, arguments.pieces);
   add_separation_options(command, arguments.separation);
   add_group_options(command, arguments.groups);
   add_thickness_options(command, arguments.groups);
@@ -269,20 +250,7 @@ void add(CLI::App& app, Status& status) {
       "Exit status: 0 free of collisions and inversions, 1 one of these or a frame that intersects "
       "itself, 2 "
       "bad input or usage, 130 interrupted (results so far are written).");
-  command->callback([arguments, command, &status] {
-    if (arguments->pieces.folder.empty()) {
-      if (!arguments->pieces.shard.empty()) {
-        throw std::invalid_argument("step: --shard needs --resume");
-      }
-      status = StepRun(*arguments).run();
-      return;
-    }
-    status = run_pieces(*command, arguments->pieces,
-                        {.input = "frames",
-                         .pieces = pieces_of_frames(*arguments),
-                         .outputs = {"--json", "--csv", "--prove"},
-                         .refused = {"--view"}});
-  });
+  command->callback([arguments, &status] { status = StepRun(*arguments).run(); });
 }
 
 }  // namespace touchstone::verify::cli::step_command

@@ -100,10 +100,12 @@ std::vector<view::ViewedQuery> read(const Arguments& arguments, Files& files) {
     }
   }
   if (!left_out.empty()) {
-    report_warning(
-        fmt::format("left out: {} queries about elements, the first {}: view draws vertex-face and "
-                    "edge-edge alone",
-                    left_out.size(), left_out.front()));
+    const std::string note = fmt::format(
+        "left out: {} queries about elements, the first {}: view draws vertex-face and edge-edge "
+        "alone",
+        left_out.size(), left_out.front());
+    if (queries.empty() && arguments.step.empty()) throw std::invalid_argument(note);
+    report_warning(note);
   }
   for (view::ViewedQuery& query : queries) {
     query.separation = arguments.separation.settle(query.separation);
@@ -119,7 +121,7 @@ std::vector<view::ViewedQuery> all_queries(const Arguments& arguments,
   if (step) queries = view::first_queries(*step, arguments.files.most);
   for (view::ViewedQuery& query : read(arguments, files)) queries.push_back(std::move(query));
   if (queries.empty() && !step) {
-    throw std::invalid_argument("no query to draw: name a file, --points or --step");
+    throw std::invalid_argument("no query: name a file, --points or --step");
   }
   return queries;
 }

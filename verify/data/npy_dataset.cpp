@@ -44,6 +44,7 @@ NpyDataset::NpyDataset(const std::filesystem::path& path, const DatasetOptions& 
   set_curves_by_extents();
   arrays_.queries.take_numbers({});  // throws unless it is of numbers
   count_ = arrays_.queries.shape()[0];
+  if (count_ == 0) throw io::DatasetError(path, {}, "no queries");
   if (!arrays_.labels) return;
   const std::array<std::uint64_t, 1> count{count_};
   arrays_.labels->require_shape(1, count, fmt::format("({})", count_));

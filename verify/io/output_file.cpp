@@ -36,6 +36,12 @@ bool is_special(const fs::path& path) {
          is_below_system_folder(path);
 }
 
+/// A name that nobody else takes, on any machine: 64 random bits in hexadecimal digits.
+std::string unused_name() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
+}
+
 }  // namespace
 
 fs::path behind_links(fs::path path) {
@@ -45,11 +51,6 @@ fs::path behind_links(fs::path path) {
   }
   const fs::path canonical = fs::weakly_canonical(path, error);
   return error ? path : canonical;
-}
-
-std::string unused_name() {
-  std::random_device random;
-  return fmt::format("{:08x}{:08x}", random(), random());
 }
 
 constexpr const char* partial_mark = ".touchstone.partial-";

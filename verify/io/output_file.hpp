@@ -24,9 +24,6 @@ namespace touchstone::verify::io {
 /// it does not exist yet.
 [[nodiscard]] std::filesystem::path behind_links(std::filesystem::path path);
 
-/// A name that nobody else takes, on any machine: 64 random bits in hexadecimal digits.
-[[nodiscard]] std::string unused_name();
-
 /// True if the name is that of a file that was being written: such a file is no input.
 [[nodiscard]] bool is_partial(const std::filesystem::path& path);
 

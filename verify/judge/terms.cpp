@@ -84,8 +84,8 @@ std::string to_text(const fast::Terms& terms) {
 }
 
 std::string as_options(const fast::Terms& terms) {
-  std::string words = other_kinds(terms, " --kinds ");
-  if (!words.empty()) words.insert(0, " --kinds ");
+  std::string words = other_kinds(terms, " --answers-kinds ");
+  if (!words.empty()) words.insert(0, " --answers-kinds ");
   if (terms.starts_apart) words += fmt::format(" --starts-apart={}", *terms.starts_apart);
   if (terms.float_coordinates) words += " --float-coordinates";
   if (terms.times == fast::Times::none) words += " --times none";

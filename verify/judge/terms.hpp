@@ -29,7 +29,7 @@ namespace touchstone::verify::judge {
 /// differ from the usual ones, each behind a comma; empty if none does.
 [[nodiscard]] std::string to_text(const fast::Terms& terms);
 
-/// The same as words of a command line: " --kinds vertex-face --starts-apart=0".
+/// The same as words of a command line: " --answers-kinds vertex-face --starts-apart=0".
 [[nodiscard]] std::string as_options(const fast::Terms& terms);
 
 }  // namespace touchstone::verify::judge

@@ -427,10 +427,7 @@ std::string to_text(const StepReport& report) {
   for (std::size_t i = 0; i < report.steps.size(); ++i) append_proof(text, report, i);
   const std::string summary = summary_of(report);
   if (!summary.empty()) text += '\n' + summary + '\n';
-  return text +
-         "\nA step is the straight motion of every vertex from one frame to the next. A simulator "
-         "that moved in several\nsubsteps between two frames took another path: have it write its "
-         "substeps.\n";
+  return text;
 }
 
 nlohmann::json to_json(const StepReport& report) {

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "tests/support/random.hpp"
-#include "verify/io/sha256.hpp"
 
 namespace touchstone::verify::io::compressor_test {
 namespace {
@@ -69,32 +68,6 @@ TEST(Compressor, GivesBackWhatItTook) {
   EXPECT_THROW(static_cast<void>(read_back("point 1\n", 1000, is_complete)), std::runtime_error);
   bytes.back() = static_cast<char>(bytes.back() ^ 1);
   EXPECT_THROW(static_cast<void>(read_back(bytes, 1000, is_complete)), std::runtime_error);
-}
-
-// ---- Digests ------------------------------------------------------------------------------------
-
-// The examples of FIPS 180-4.
-TEST(Sha256, GivesThePublishedDigests) {
-  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
-  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
-            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
-  EXPECT_EQ(sha256(std::string(1000000, 'a')),
-            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
-}
-
-TEST(Sha256, DoesNotDependOnThePartsOrTheirLengths) {
-  std::string text;
-  for (int i = 0; i < 300; ++i) text += static_cast<char>(i * 7);
-  for (std::size_t length = 0; length <= text.size(); ++length) {
-    const std::string_view bytes(text.data(), length);
-    for (const std::size_t cut : {std::size_t{0}, length / 3, length / 2, length}) {
-      Sha256 digest;
-      digest.add(bytes.substr(0, cut));
-      digest.add(bytes.substr(cut));
-      EXPECT_EQ(digest.hexadecimal(), sha256(bytes)) << length << " in parts at " << cut;
-    }
-  }
 }
 
 }  // namespace

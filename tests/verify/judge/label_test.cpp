@@ -188,7 +188,7 @@ TEST(Terms, NameTheKindsWhereTheyAreNotBothAboutContact) {
   EXPECT_EQ(to_text({.kinds = {true, false}}), ", vertex-face alone");
   const Terms of_elements{.kinds = {false, false, true, true}};
   EXPECT_EQ(to_text(of_elements), ", tetrahedron and plane-triangle alone");
-  EXPECT_EQ(as_options(of_elements), " --kinds tetrahedron --kinds plane-triangle");
+  EXPECT_EQ(as_options(of_elements), " --answers-kinds tetrahedron --answers-kinds plane-triangle");
 }
 
 }  // namespace

@@ -125,24 +125,36 @@ std::vector<jobs::CertifyResult> results_of(
 }
 
 TEST(Gate, ABaselineIsReadAsItIsWritten) {
-  const KnownAnswers known{{"naïve \"1\"", "folder/a,b.csv", "vertex-face", 7, Fault::late_toi},
-                           {"naive", "a_ee.csv", "edge-edge", 0, Fault::false_negative}};
+  const KnownAnswers known{
+      {"naïve \"1\"", "folder/a,b.csv", "vertex-face", 7, 0.1, "l2", Fault::late_toi},
+      {"naive", "a_ee.csv", "edge-edge", 0, 0.0, "linf", Fault::false_negative}};
   const tests::TemporaryFolder folder;
   EXPECT_EQ(read_baseline(folder.file("known.json", baseline_document(known))), known);
   const auto other =
       folder.file("other.json", R"({"known": [["naive", "a", "edge-edge", 1, "luck"]]})");
   EXPECT_THROW(static_cast<void>(read_baseline(other)), io::DatasetError);
+  // As of version 0.4: about contact.
+  const auto old =
+      folder.file("old.json", R"({"known": [["naive", "a_ee.csv", "edge-edge", 0, "late_toi"]]})");
+  EXPECT_EQ(read_baseline(old),
+            (KnownAnswers{{"naive", "a_ee.csv", "edge-edge", 0, 0.0, "linf", Fault::late_toi}}));
 }
 
 // New answers and mended ones, and the badge, are in tests/transcripts/certify.md.
-TEST(Gate, AnAnswerThatTheRunDidNotAskForStaysKnownAndAllowedOnesAreNone) {
+TEST(Gate, AnAnswerIsMendedIfItsQueryWasAskedAtItsSeparationAndAllowedOnesAreNone) {
   EXPECT_TRUE(wrong_answers_of(results_of({{3, Fault::false_positive}})).empty());
-  const KnownAnswers before{{"naive", "a_ee.csv", "edge-edge", 10, Fault::crash},
-                            {"naive", "b_ee.csv", "edge-edge", 1, Fault::crash},
-                            {"other", "a_ee.csv", "edge-edge", 1, Fault::crash}};
-  const auto change = change_of(before, results_of({}));
-  EXPECT_EQ(change.now, before);
-  EXPECT_TRUE(change.mended.empty());
+  const KnownAnswers before{{"naive", "a_ee.csv", "edge-edge", 10, 0.0, "linf", Fault::crash},
+                            {"naive", "a_ee.csv", "edge-edge", 10, 0.0, "linf", Fault::late_toi},
+                            {"naive", "a_ee.csv", "edge-edge", 10, 0.5, "linf", Fault::crash},
+                            {"naive", "a_ee.csv", "edge-edge", 11, 0.0, "linf", Fault::crash},
+                            {"other", "a_ee.csv", "edge-edge", 10, 0.0, "linf", Fault::crash}};
+  KnownAnswers asked;
+  add_of_query(before, known_query("naive", "a_ee.csv", Kind::edge_edge, 10, fast::no_separation),
+               asked);
+  const auto change = change_of(before, asked, results_of({{10, Fault::late_toi}}));
+  EXPECT_EQ(change.mended, KnownAnswers{*before.begin()});
+  EXPECT_EQ(change.now.size(), before.size() - 1);
+  EXPECT_TRUE(change.fresh.empty());
 }
 
 TEST(Gate, MoreAnswersThanAreKeptAreAnError) {
