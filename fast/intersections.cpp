@@ -16,14 +16,14 @@
 #include "fast/broad_phase/primitive_groups.hpp"
 #include "fast/broad_phase/search.hpp"
 #include "fast/candidates.hpp"
-#include "fast/intersections/contacts.hpp"
 #include "fast/intersections/filter_kernel.hpp"
 #include "fast/intersections/orientation.hpp"
 #include "fast/intersections/pair_filter.hpp"
+#include "fast/intersections/triangle_contacts.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
-#include "fast/step/bodies.hpp"
 #include "fast/step/codimensional.hpp"
+#include "fast/step/thickness.hpp"
 #include "touchstone/broad_phase.hpp"
 
 namespace touchstone::fast {

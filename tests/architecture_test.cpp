@@ -129,9 +129,9 @@ constexpr std::string_view headers_without_test = R"(
   fast/certified/exact/: distance_decision.hpp fraction.hpp
   fast/certified/stages/: axis.hpp bisection.hpp conservative_advancement.hpp crossing.hpp determinant.hpp direction.hpp distance_enclosure.hpp inversion.hpp lanes.hpp moving_polygon.hpp moving_vectors.hpp only_zero.hpp orientation.hpp refinement.hpp single_precision.hpp
   fast/distance/: filter_on_lanes.hpp polygon_features.hpp
-  fast/intersections/: contacts.hpp filter_on_lanes.hpp orientation.hpp pair_filter.hpp pair_order.hpp pair_order_avx2.hpp
+  fast/intersections/: filter_on_lanes.hpp orientation.hpp pair_filter.hpp pair_order.hpp pair_order_avx2.hpp triangle_contacts.hpp
   fast/platform/: avx2_doubles.hpp avx2_floats.hpp avx512_doubles.hpp avx512_floats.hpp avx_rows.hpp floating_point_state.hpp neon_doubles.hpp neon_floats.hpp scalar_floats.hpp
-  fast/step/: bodies.hpp codimensional.hpp
+  fast/step/: codimensional.hpp thickness.hpp
   fast/tight_inclusion/: box_kernel_on_lanes.hpp curved_box_kernel.hpp
   adapters/tight_inclusion/: config.hpp
 // The answers of the methods; the queries of the families; files and child processes, tables, certify, solve.

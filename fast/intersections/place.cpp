@@ -15,7 +15,7 @@
 
 #include "fast/certified/exact/enclosing_doubles.hpp"
 #include "fast/distance/neighbouring_doubles.hpp"
-#include "fast/intersections/contacts.hpp"
+#include "fast/intersections/triangle_contacts.hpp"
 
 namespace touchstone::fast::meeting {
 namespace {

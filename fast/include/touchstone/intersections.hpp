@@ -35,9 +35,9 @@
 /// those of the mesh that results. Touching counts: a step from there collides at t=0.
 ///
 /// The broad phase (touchstone/broad_phase.hpp) finds the pairs whose boxes overlap; signs of
-/// orientations decide these (fast/intersections/contacts.hpp, with theorem and proof). The
-/// functions are thread-safe, do not depend on the caller's floating-point state, and have the same
-/// results for any number of threads and any instruction set.
+/// orientations decide these (fast/intersections/triangle_contacts.hpp, with theorem and proof).
+/// The functions are thread-safe, do not depend on the caller's floating-point state, and have the
+/// same results for any number of threads and any instruction set.
 
 #include <Eigen/Core>
 

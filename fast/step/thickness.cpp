@@ -1,4 +1,4 @@
-#include "fast/step/bodies.hpp"
+#include "fast/step/thickness.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fast/intersections/contacts.hpp"
+#include "fast/intersections/triangle_contacts.hpp"
 
 #include <algorithm>
 

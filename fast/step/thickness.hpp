@@ -1,10 +1,9 @@
 #pragma once
 
 /// \file
-/// The collision groups of a scene (touchstone/step.hpp). The search calls a collision group a
-/// body, because "group" means sixteen primitives there. Two bodies *meet* if they can collide. A
-/// rule for vertices (StepOptions::can_collide) holds besides. Pairs of bodies may have a
-/// thickness.
+/// The collision groups of a scene, and the thickness of their pairs (touchstone/step.hpp). The
+/// search calls a collision group a body, because "group" means sixteen primitives there. Two
+/// bodies *meet* if they can collide. A rule for vertices (StepOptions::can_collide) holds besides.
 
 #include <array>
 #include <cstddef>
