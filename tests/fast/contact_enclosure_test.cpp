@@ -61,7 +61,7 @@ Truth truth_at(const ExactPair& pair, const Rational& t,
   const Vector p = pair.vector(1, t), q = pair.vector(2, t), f = pair.difference(t, u, v);
   const bool is_face = pair.posed.kind == Kind::vertex_face;
   Truth truth;
-  truth.first = is_face ? point_of(pair, 0, t) : sum(point_of(pair, 0, t), -u, p);
+  truth.first = is_face ? pair.point(0, t) : sum(pair.point(0, t), -u, p);
   truth.second = sum(truth.first, -1, f);
   const Vector product = cross(p, q);
   const bool is_flat = is_noise(product, p, q);
