@@ -149,7 +149,7 @@ TEST(Gate, AnAnswerIsMendedIfItsQueryWasAskedAtItsSeparationAndAllowedOnesAreNon
                             {"naive", "a_ee.csv", "edge-edge", 11, 0.0, "linf", Fault::crash},
                             {"other", "a_ee.csv", "edge-edge", 10, 0.0, "linf", Fault::crash}};
   KnownAnswers asked;
-  add_of_query(before, known_query("naive", "a_ee.csv", Kind::edge_edge, 10, fast::no_separation),
+  add_of_query(before, known_query("naive", "a_ee.csv", Kind::edge_edge, 10, {.norm = Norm::linf}),
                asked);
   const auto change = change_of(before, asked, results_of({{10, Fault::late_toi}}));
   EXPECT_EQ(change.mended, KnownAnswers{*before.begin()});
