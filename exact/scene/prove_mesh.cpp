@@ -18,6 +18,7 @@
 #include "exact/scene/scene_text.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
+#include "touchstone/broad_phase.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/scene_certificate.hpp"
@@ -239,50 +240,54 @@ bool is_before(const fast::Edge& a, const fast::Edge& b) {
   return std::tie(a[1], a[0]) < std::tie(b[1], b[0]);
 }
 
-/// Lists the edges and the points that are elements (touchstone/intersections.hpp).
-void list_edges_and_points(const fast::Mesh& mesh, bool is_welded, checker::Scene& scene) {
-  std::vector<std::int32_t> first(scene.vertices.size());
-  std::iota(first.begin(), first.end(), 0);
-  if (is_welded) first = checker::first_at_places(scene.vertices, checker::Groups(scene));
-  const auto place = [&](std::int32_t v) { return first[static_cast<std::size_t>(v)]; };
-  std::vector<bool> is_taken(scene.vertices.size());
-  std::vector<fast::Face> faces = mesh.faces;
-  for (fast::Face& face : faces) {
-    for (std::int32_t& v : face) is_taken[static_cast<std::size_t>(v = place(v))] = true;
-  }
-  const std::vector<fast::Edge> sides = fast::edges_of(faces);
-  std::set<fast::Edge> listed;
-  scene.points = mesh.points;
-  for (const auto& [a, b] : mesh.edges) {
-    const fast::Edge edge{std::min(place(a), place(b)), std::max(place(a), place(b))};
-    if (edge[0] == edge[1]) {
-      scene.points.push_back(std::min(a, b));
-    } else if (!std::ranges::binary_search(sides, edge, is_before) && listed.insert(edge).second) {
-      scene.edges.push_back({a, b});
-      for (const std::int32_t v : edge) is_taken[static_cast<std::size_t>(v)] = true;
-    }
-  }
-  std::ranges::sort(scene.points);
-  std::erase_if(scene.points, [&](std::int32_t v) {
-    const auto vertex = static_cast<std::size_t>(place(v));
-    const bool was_taken = is_taken[vertex];
-    is_taken[vertex] = true;
-    return was_taken;
-  });
-}
-
-checker::Scene scene_of(const fast::MovingVertices& vertices, const ListedScene& listed,
-                        bool is_welded) {
+checker::Scene scene_of(const fast::MovingVertices& vertices, const ListedScene& listed) {
   checker::Scene scene;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const auto& [x, y, z, zero] = vertices[i].start;
     scene.vertices.push_back({{x, y, z}, {x, y, z}});
   }
   scene.faces = listed.mesh.faces;
+  scene.edges = listed.bare_edges;
+  scene.points = listed.mesh.points;
   scene.groups = listed.rules.of_vertices;
   scene.apart = listed.rules.apart;
-  list_edges_and_points(listed.mesh, is_welded, scene);
   return scene;
+}
+
+/// Lists just the edges and points that are elements (touchstone/intersections.hpp).
+void list_elements(const fast::MovingVertices& vertices, bool is_welded, ListedScene& listed) {
+  std::vector<std::int32_t> first(vertices.size());
+  std::iota(first.begin(), first.end(), 0);
+  if (is_welded) {
+    const checker::Scene scene = scene_of(vertices, listed);
+    first = checker::first_at_places(scene.vertices, checker::Groups(scene));
+  }
+  const auto place = [&](std::int32_t v) { return first[static_cast<std::size_t>(v)]; };
+  std::vector<bool> is_taken(vertices.size());
+  std::vector<fast::Face> faces = listed.mesh.faces;
+  for (fast::Face& face : faces) {
+    for (std::int32_t& v : face) is_taken[static_cast<std::size_t>(v = place(v))] = true;
+  }
+  const std::vector<fast::Edge> sides = fast::edges_of(faces);
+  std::set<fast::Edge> known;
+  std::vector<std::int32_t>& points = listed.mesh.points;
+  listed.bare_edges.clear();
+  for (const auto& [a, b] : listed.mesh.edges) {
+    const fast::Edge edge{std::min(place(a), place(b)), std::max(place(a), place(b))};
+    if (edge[0] == edge[1]) {
+      points.push_back(std::min(a, b));
+    } else if (!std::ranges::binary_search(sides, edge, is_before) && known.insert(edge).second) {
+      listed.bare_edges.push_back({a, b});
+      for (const std::int32_t v : edge) is_taken[static_cast<std::size_t>(v)] = true;
+    }
+  }
+  std::ranges::sort(points);
+  std::erase_if(points, [&](std::int32_t v) {
+    const auto vertex = static_cast<std::size_t>(place(v));
+    const bool was_taken = is_taken[vertex];
+    is_taken[vertex] = true;
+    return was_taken;
+  });
 }
 
 class MeshProver : private ProofWriter {
@@ -292,7 +297,7 @@ class MeshProver : private ProofWriter {
       : ProofWriter(options),
         listed_(listed),
         is_welded_(is_welded),
-        scene_(scene_of(vertices, listed, is_welded)),
+        scene_(scene_of(vertices, listed)),
         elements_(scene_, is_welded) {}
 
   SceneProof run(std::span<const fast::Intersection> found) {
@@ -300,6 +305,9 @@ class MeshProver : private ProofWriter {
       for (const fast::Intersection& one : found) intersecting_.push_back(pair_of(one));
       std::ranges::sort(intersecting_);
       proof_.claim = words(is_welded_ ? "welded_intersections" : "intersections", found.size());
+      proof_.rules = checker::rules_text(scene_.apart,
+                                         scene_.vertices.size() - elements_.vertices_of_elements());
+      proof_.contact = "intersect";
       const std::vector<fast::IndexPair> apart = pairs_to_argue();
       lines_ = intersecting_.size() + apart.size();
       require_few_arguments(lines_);
@@ -482,19 +490,20 @@ SceneProof prove_mesh(const fast::MovingVertices& vertices, const fast::Mesh& me
   if (search.can_collide) {
     throw std::invalid_argument("prove: certificates know groups alone, not a rule can_collide");
   }
-  const ListedScene listed({.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points},
-                           {.of_vertices = search.groups.of_vertices, .apart = search.groups.apart},
-                           search.weld);
+  ListedScene listed({.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points},
+                     {.of_vertices = search.groups.of_vertices, .apart = search.groups.apart},
+                     search.weld);
+  fast::IntersectionOptions all = search;
+  all.pairs = fast::IntersectingPairs::all;
+  all.most = (std::numeric_limits<std::size_t>::max)();
+  all.places = false;
+  const auto found = fast::intersections(vertices, listed.mesh, all);
+  list_elements(vertices, search.weld, listed);
   try {
     listed.require_within_limit(vertices.size());
   } catch (const CertificateLimitError& error) {
     return {.failure = error.what()};
   }
-  fast::IntersectionOptions all = search;
-  all.pairs = fast::IntersectingPairs::all;
-  all.places = false;
-  all.most = (std::numeric_limits<std::size_t>::max)();
-  const auto found = fast::intersections(vertices, listed.mesh, all);
   return MeshProver(vertices, listed, search.weld, options).run(found);
 }
 

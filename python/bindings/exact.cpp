@@ -160,7 +160,7 @@ py::tuple prove(const std::string& kind_name, const Doubles& array, double dista
 }
 
 /// Calls prove(options), where they have a progress in thousandths for `progress`.
-/// \returns the claim and the stream. \throws std::runtime_error with the reason for a missing
+/// \returns the claim, the rules and the stream. \throws std::runtime_error with the reason for a missing
 /// proof.
 template <class Prove>
 py::tuple scene_proof(const std::string& label, int threads, std::atomic<bool>& stop,
@@ -175,7 +175,7 @@ py::tuple scene_proof(const std::string& label, int threads, std::atomic<bool>& 
   if (!progress.is_none()) show = py::cpp_function([&] { progress(done.load()); });
   const exact::SceneProof proof = in_background([&] { return prove_scene(options); }, stop, show);
   if (!proof.is_complete()) throw std::runtime_error("prove: no proof: " + proof.failure);
-  return py::make_tuple(proof.claim, py::bytes(proof.stream));
+  return py::make_tuple(proof.claim, proof.rules, py::bytes(proof.stream));
 }
 
 py::tuple prove_step(const Doubles& before, const Doubles& after, const Integers& faces,

@@ -52,7 +52,7 @@ def prove_step(
     threads: int,
     label: str,
     progress: _Progress | None,
-) -> tuple[str, bytes]: ...
+) -> tuple[str, str, bytes]: ...
 def prove_mesh(
     vertices: _Doubles,
     faces: _Integers,
@@ -64,7 +64,7 @@ def prove_mesh(
     threads: int,
     label: str,
     progress: _Progress | None,
-) -> tuple[str, bytes]: ...
+) -> tuple[str, str, bytes]: ...
 def check(
     certificates: bytes | str,
     scenes: bytes | str | None,

@@ -131,6 +131,9 @@ class SceneProof:
     claim : str
         "no_contact T" or "earliest LO HI" of a step; "intersections N" or "welded_intersections N" of a
         mesh at rest.
+    rules : str
+        What of the scene is left out, which weakens the claim, in the words of `check`: "1 pair of groups
+        held apart"; empty if nothing is.
     label : str
         The label that was given.
     certificate : bytes
@@ -138,16 +141,18 @@ class SceneProof:
     """
 
     claim: str
+    rules: str
     label: str
     certificate: bytes
 
     def __repr__(self) -> str:
-        return f"SceneProof({self.claim!r}, {self.label!r}, {len(self.certificate)} bytes)"
+        rules = f", {self.rules!r}" if self.rules else ""
+        return f"SceneProof({self.claim!r}{rules}, {self.label!r}, {len(self.certificate)} bytes)"
 
 
 def _proved(
     title: str,
-    prove: Callable[..., Tuple[str, bytes]],
+    prove: Callable[..., Tuple[str, str, bytes]],
     arguments: Tuple[Any, ...],
     threads: int,
     label: str,
@@ -156,8 +161,8 @@ def _proved(
     if _fast.is_forked():
         threads = 1  # the others of the pool are in the parent
     with Progress(title, show, queries=1000) as bar:
-        claim, certificate = _ending_with_interrupts(lambda: prove(*arguments, threads, label, bar.callback))
-    return SceneProof(claim, label, certificate)
+        claim, rules, certificate = _ending_with_interrupts(lambda: prove(*arguments, threads, label, bar.callback))
+    return SceneProof(claim, rules, label, certificate)
 
 
 def _ending_with_interrupts(work: Callable[[], Value]) -> Value:

@@ -412,6 +412,7 @@ def test_without_the_tool_only_judging_is_missing(monkeypatch, eight):
     scene = dict(faces=[[0, 1, 2], [3, 4, 5]], groups=[0] * 3 + [1] * 3, apart=[[0, 0]])
     proof = touchstone.Step(before, after, **scene).prove(label="it falls")
     assert proof.claim.startswith("earliest ") and touchstone.check(proof.certificate, claim="earliest")
+    assert proof.rules == "1 group held apart from itself" and proof.rules in touchstone.check(proof.certificate).steps[0]
     assert proof.label == "it falls" and b"\nstep it falls\n" in proof.certificate
     short = touchstone.Step(before, after, faces=scene["faces"], t_max=0.25, separation=0.125, norm="l2").prove()
     assert short.claim == "no_contact 1/4"

@@ -23,6 +23,7 @@
 #include "exact/checker/checker.hpp"
 #include "exact/checker/places.hpp"
 #include "exact/checker/resting_mesh.hpp"
+#include "exact/checker/summary.hpp"
 #include "exact/contact/triangle_intersection.hpp"
 #include "exact/scene/step_places.hpp"
 #include "tests/support/certificates.hpp"
@@ -48,8 +49,13 @@ using tests::Random;
 using tests::refusal;
 using tests::Scene;
 
-/// The scene with the sides of its faces among its edges, some of them turned, and some twice.
-Scene with_sides(Scene scene) {
+/// The scene with its edges turned and in another order, those of the faces twice. Edges from a
+/// vertex to itself are points, as a certificate lists them.
+Scene with_edges_anyhow(Scene scene) {
+  for (const auto& [a, b] : scene.edges) {
+    if (a == b) scene.points.push_back(a);
+  }
+  std::erase_if(scene.edges, [](const fast::Edge& edge) { return edge[0] == edge[1]; });
   for (const auto& [a, b] : fast::edges_of(scene.faces)) scene.edges.push_back({b, a});
   std::ranges::reverse(scene.edges);
   return scene;
@@ -115,7 +121,7 @@ checker::Options demand(const std::string& claim, const Separation& separation) 
 /// A name of any length makes a label that the checker reads.
 TEST(ProveStep, KeepsTheLimitsOfALabelAndAScene) {
   Random random(1);
-  const Scene scene = with_sides(tests::random_scene(random, tests::shapes().front(), 6));
+  const Scene scene = with_edges_anyhow(tests::random_scene(random, tests::shapes().front(), 6));
   for (const std::size_t bytes : {1U, 1'019U, 1'024U, 1'025U, 5'000U}) {
     const SceneProof proof = prove(scene, {}, {.label = std::string(bytes, 'x')});
     ASSERT_EQ(proof.failure, "");
@@ -157,7 +163,7 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
   for (const tests::Shape& shape : tests::shapes()) {
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
       Random random(seed);
-      Scene scene = with_sides(tests::random_scene(random, shape, random.between(4, 14)));
+      Scene scene = with_edges_anyhow(tests::random_scene(random, shape, random.between(4, 14)));
       if (seed % 3 == 0) {
         tests::add_thickness(scene, std::min(0.5 * shape.separation, 1e300), random);
         with_thickness += scene.radii.empty() ? 0 : 1;
@@ -179,7 +185,7 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
           << shape.name << ' ' << seed;
       expect_true(scene, options, proof);
       checker::Summary summary(checker::Time::step);
-      summary.add(proof.statement, true);
+      summary.add({proof.claim == "no_contact 1", proof.contact, proof.rules}, true);
       EXPECT_EQ(summary.text(), tests::check_text(text).summary);
       inverted += text.find("\nelement ") != std::string::npos ? 1 : 0;
       free_elements += text.find("\ntetrahedron\n") != std::string::npos ? 1 : 0;
@@ -200,7 +206,7 @@ TEST(ProveStep, NeedsEachOfItsArguments) {
   Random random(5);
   std::uint64_t directions = 0, certificates = 0;
   for (int trial = 0; trial < 12; ++trial) {
-    Scene scene = with_sides(tests::soup(random, 12, 0.2));
+    Scene scene = with_edges_anyhow(tests::soup(random, 12, 0.2));
     if (trial % 3 == 2) tests::add_thickness(scene, 0.05, random);
     const SceneProof proof = prove(scene, {.t_max = trial % 2 == 0 ? 1.0 : 1e-3});
     const std::string& text = proof.stream;
@@ -228,7 +234,7 @@ TEST(ProveStep, ClaimsNothingLater) {
   Random random(6);
   int tried = 0;
   for (int trial = 0; trial < 40; ++trial) {
-    const Scene scene = with_sides(tests::soup(random, 10, 0.3));
+    const Scene scene = with_edges_anyhow(tests::soup(random, 10, 0.3));
     const SceneProof proof = prove(scene, {});
     const std::string& text = proof.stream;
     if (!proof.claim.starts_with("earliest ") || proof.claim.starts_with("earliest 0 ")) continue;
@@ -264,7 +270,7 @@ TEST(ProveStep, DividesTheTimeOfNearlyFlatElements) {
 
 TEST(ProveStep, IsTheSameOnAnyNumberOfThreads) {
   Random random(7);
-  const Scene scene = with_sides(tests::soup(random, 60, 0.3));
+  const Scene scene = with_edges_anyhow(tests::soup(random, 60, 0.3));
   const SceneProof one = prove(scene, {.max_threads = 1}, {.max_threads = 1});
   const SceneProof some = prove(scene, {.max_threads = 3}, {.max_threads = 3});
   EXPECT_EQ(one.stream, some.stream);
@@ -415,6 +421,9 @@ TEST(ProveMesh, OfRandomMeshesIsAccepted) {
       const std::size_t found = intersections_of(proof);
       EXPECT_EQ(proof.failure, "") << shape.name << ' ' << seed;
       EXPECT_EQ(refusal(text, demanding(found, search.weld)), "") << shape.name << ' ' << seed;
+      EXPECT_EQ(
+          tests::check_text(text).meshes.at(0).find("rules " + proof.rules) != std::string::npos,
+          !proof.rules.empty());
       pairs += proof.directions;
       intersections += found;
       free += found == 0 ? 1 : 0;

@@ -92,9 +92,11 @@ struct SceneProof {
   /// The claim, as in the certificate: "no_contact T" or "earliest LO HI" of a step; "intersections
   /// N" or "welded_intersections N" of a mesh at rest.
   std::string claim = {};
-  /// Of a step: what two primitives do in a contact, "touch" or "come within D (NORM)", and what of
-  /// the scene is left out, which weakens the claim, as the checker says it; empty: nothing.
+  /// What two primitives do in a contact, or two elements, as the checker says it: "touch", "come
+  /// within D (NORM)", "intersect".
   std::string contact = {};
+  /// What of the scene is left out, which weakens the claim, as the checker says it: "1 pair of
+  /// groups held apart"; empty if nothing is.
   std::string rules = {};
   std::uint64_t directions = 0;    ///< pairs with a direction or a plane
   std::uint64_t certificates = 0;  ///< pairs and elements of a step with subintervals
@@ -110,7 +112,7 @@ struct SceneProof {
 
 /// Proves that the step is free up to its t_max, or the time of its earliest contact or inversion.
 /// The certificate has the edges of the step in the order of edges_of (touchstone/broad_phase.hpp),
-/// and an edge from a vertex to itself as a point.
+/// and an edge from a vertex to itself as a point; the claim is about the scene as it is listed.
 /// \throws std::invalid_argument if the step has a rule `can_collide`: certificates know groups
 /// alone. \throws Stopped as the step; the exceptions of on_text.
 [[nodiscard]] SceneProof prove_step(const fast::Step& step, const SceneProofOptions& options = {});
