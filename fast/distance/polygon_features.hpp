@@ -34,7 +34,6 @@
 #include <cstddef>
 
 #include "touchstone/filters/polynomial_expressions.hpp"
-#include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::fast::polygon {
@@ -49,9 +48,13 @@ struct CornerList {
 };
 
 [[nodiscard]] inline CornerList distinct_corners(Kind kind, const Query& query) {
+  const auto coordinates = [&](std::size_t point) {
+    std::array<double, 6> result{};
+    for (std::size_t i = 0; i < 6; ++i) result[i] = query.at(i / 3, point, i % 3);
+    return result;
+  };
   const auto same = [&](std::size_t a, std::size_t b) {
-    return a == b || (point_of(query, 0, a) == point_of(query, 0, b) &&
-                      point_of(query, 1, a) == point_of(query, 1, b));
+    return a == b || coordinates(a) == coordinates(b);
   };
   CornerList result;
   for (const Corner& corner : corners(kind)) {

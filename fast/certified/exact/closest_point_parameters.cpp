@@ -1,5 +1,4 @@
 #include "fast/certified/exact/closest_point_parameters.hpp"
-#include "touchstone/mesh.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -154,9 +153,13 @@ std::array<AffineVectors, 2> scaled_vectors(Kind kind, const Query& query) {
   const auto scaled = [&](double x) { return std::ldexp(x, -exponent); };
   const auto vectors = affine_vectors(kind);
   const auto at = [&](std::size_t end) -> AffineVectors {
+    const auto point = [&](std::size_t k) {
+      return Eigen::Vector3d(query.at(end, k, 0), query.at(end, k, 1), query.at(end, k, 2))
+          .unaryExpr(scaled)
+          .eval();
+    };
     const auto vector = [&](const std::array<std::size_t, 2>& points) -> Eigen::Vector3d {
-      return point_of(query, end, points[0]).unaryExpr(scaled) -
-             point_of(query, end, points[1]).unaryExpr(scaled);
+      return point(points[0]) - point(points[1]);
     };
     return {vector(vectors[0]), vector(vectors[1]), vector(vectors[2])};
   };
