@@ -114,7 +114,7 @@ def run_engine(engine, tool, data, expected, folder):
         return f"status {done.returncode}: {done.stdout}{done.stderr}"
     if counts(json.loads(run.with_suffix(".json").read_text())) != expected:
         return "the sum differs from the result of one run"
-    print(f"{engine}: {done.stdout.splitlines()[0]}, one worker killed, the same result")
+    print(f"{engine}: {done.stdout.splitlines()[0]}, one killed, the same result")
     return None
 
 
