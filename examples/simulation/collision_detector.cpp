@@ -1,9 +1,8 @@
 #include "examples/simulation/collision_detector.hpp"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cstddef>
-#include <cstring>
 #include <mutex>
 #include <optional>
 #include <tuple>
@@ -18,9 +17,7 @@ namespace {
 std::uint64_t hash(const Query& query) {
   std::uint64_t result = 0x9e3779b97f4a7c15;
   for (const double x : query.coordinates) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &x, sizeof bits);
-    result = (result ^ bits) * 0xff51afd7ed558ccd;
+    result = (result ^ std::bit_cast<std::uint64_t>(x)) * 0xff51afd7ed558ccd;
     result ^= result >> 32;
   }
   return result;
@@ -34,35 +31,25 @@ std::optional<Norm> norm_of(const fast::MethodInfo& info) {
   return std::nullopt;
 }
 
-struct Candidates {
-  fast::PairKind kind;
-  std::vector<fast::IndexPair> pairs;
-};
+}  // namespace
 
-/// The candidates of a step by kind, in order.
-std::array<Candidates, 4> candidates_of(const fast::Step& step) {
-  using fast::PairKind;
-  std::array<Candidates, 4> result{{{PairKind::vertex_face, {}},
-                                    {PairKind::edge_edge, {}},
-                                    {PairKind::vertex_edge, {}},
-                                    {PairKind::vertex_vertex, {}}}};
+Candidates candidates_of(const fast::Step& step) {
+  Candidates result;
   std::mutex mutex;
   step.candidates([&](const fast::StepCandidates& found) {
     const std::scoped_lock lock(mutex);
-    auto& pairs = result.at(static_cast<std::size_t>(found.kind)).pairs;
+    auto& pairs = result[found.kind];
     pairs.insert(pairs.end(), found.pairs.begin(), found.pairs.end());
   });
-  for (Candidates& one : result) std::ranges::sort(one.pairs);
+  for (auto& [kind, pairs] : result) std::ranges::sort(pairs);
   return result;
 }
-
-}  // namespace
 
 CollisionDetector::CollisionDetector(DetectorOptions options)
     : options_(std::move(options)),
       solver_(verify::solvers::solver_in_process(
           verify::solvers::find_method(options_.method),
-          {.tolerance = options_.tolerance, .max_checks = options_.max_checks})) {}
+          {.tolerance = options_.tolerance, .max_checks = 1'000'000})) {}
 
 bool CollisionDetector::is_whole() const {
   return options_.method == "certified" && options_.missed_one_in == 0 &&
@@ -71,12 +58,11 @@ bool CollisionDetector::is_whole() const {
 
 void CollisionDetector::record(const fast::Step& step) {
   if (options_.recorder == nullptr) return;
-  for (const Candidates& candidates : candidates_of(step)) {
-    const std::size_t count = std::min(candidates.pairs.size(), options_.record_limit);
+  for (const auto& [kind, pairs] : candidates_of(step)) {
+    const std::size_t count = std::min(pairs.size(), options_.record_limit);
     for (std::size_t i = 0; i < count; ++i) {
-      const fast::IndexPair& pair = candidates.pairs[i * candidates.pairs.size() / count];
-      options_.recorder->add(fast::Step::kind_of(candidates.kind),
-                             step.query_of(candidates.kind, pair));
+      const fast::IndexPair& pair = pairs[i * pairs.size() / count];
+      options_.recorder->add(fast::Step::kind_of(kind), step.query_of(kind, pair));
     }
   }
 }
@@ -84,16 +70,13 @@ void CollisionDetector::record(const fast::Step& step) {
 std::vector<CollisionDetector::Impact> CollisionDetector::impacts(const fast::Step& step,
                                                                   const Separation& separation) {
   std::vector<Impact> result;
-  std::vector<Query> queries;
-  std::vector<fast::Answer> answers;
-  for (const Candidates& candidates : candidates_of(step.with_separation(separation))) {
-    queries.clear();
-    for (const fast::IndexPair& pair : candidates.pairs)
-      queries.push_back(step.query_of(candidates.kind, pair));
-    answers.assign(queries.size(), {});
+  for (const auto& [kind, pairs] : candidates_of(step.with_separation(separation))) {
+    std::vector<Query> queries;
+    for (const fast::IndexPair& pair : pairs) queries.push_back(step.query_of(kind, pair));
+    std::vector<fast::Answer> answers(queries.size());
     statistics_.candidates += queries.size();
-    const Kind kind = fast::Step::kind_of(candidates.kind);
-    (void)solver_->solve({.queries = {kind, queries}, .separation = separation}, answers);
+    (void)solver_->solve(
+        {.queries = {fast::Step::kind_of(kind), queries}, .separation = separation}, answers);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       if (answers[i].verdict == fast::Verdict::no) continue;
       if (options_.missed_one_in != 0 && hash(queries[i]) % options_.missed_one_in == 0) {
@@ -102,8 +85,7 @@ std::vector<CollisionDetector::Impact> CollisionDetector::impacts(const fast::St
       }
       // An undecided pair may collide immediately.
       const bool is_known = answers[i].verdict == fast::Verdict::yes && answers[i].toi_lower >= 0.0;
-      result.push_back(
-          {candidates.kind, candidates.pairs[i], is_known ? answers[i].toi_lower : 0.0});
+      result.push_back({kind, pairs[i], is_known ? answers[i].toi_lower : 0.0});
     }
   }
   return result;

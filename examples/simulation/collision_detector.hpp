@@ -13,6 +13,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,9 +27,8 @@ namespace touchstone::simulation {
 
 struct DetectorOptions {
   std::string method = "certified";
-  double tolerance = 1e-6;              ///< δ, of methods that are driven by one
-  std::int64_t max_checks = 1'000'000;  ///< m_I
-  double p = 0.2;                       ///< the fraction of the distance that a line search keeps
+  double tolerance = 1e-6;  ///< δ, of methods that are driven by one
+  double p = 0.2;           ///< the fraction of the distance that a line search keeps
   /// One query in this number, chosen by its coordinates, is answered "no" regardless of the truth;
   /// 0: none. (The certified solver is then used like the others.)
   std::uint64_t missed_one_in = 0;
@@ -46,11 +46,16 @@ struct DetectorStatistics {
   std::uint64_t calls = 0;
   std::uint64_t candidates = 0;  ///< candidate pairs
   std::uint64_t missed = 0;      ///< planted false negatives
-  std::uint64_t limited =
-      0;  ///< line searches that a contact limits, of methods called query by query
+  /// Line searches that a contact limits, of methods called query by query.
+  std::uint64_t limited = 0;
   std::uint64_t steps_of_zero = 0;  ///< line searches with a step size of 0
   double seconds = 0.0;             ///< including the broad phase, without recording
 };
+
+/// Pairs by kind, in order.
+using Candidates = std::map<fast::PairKind, std::vector<fast::IndexPair>>;
+
+[[nodiscard]] Candidates candidates_of(const fast::Step& step);
 
 class CollisionDetector {
  public:
@@ -85,9 +90,7 @@ class CollisionDetector {
   DetectorStatistics statistics_;
 };
 
-// ---- Seconds of wall-clock time -----------------------------------------------------------------
-
-/// Adds the time until its end.
+/// Adds the wall-clock time until its end, in seconds.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds) {}

@@ -1,34 +1,26 @@
 #pragma once
 
 /// \file
-/// Queries in files, with the oracle's truth: as CSV with a label in each row, the format of
-/// the 2021 benchmark, or as a NumPy array with the labels in a separate file.
+/// Queries in files, with the oracle's truth: NumPy arrays with the labels in a separate file, a
+/// format of the public data [wang2021].
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <string>
+#include <vector>
 
 #include "touchstone/query.hpp"
+#include "verify/data/npy.hpp"
+#include "verify/io/output_file.hpp"
 
 namespace touchstone::simulation {
 
-struct RecorderOptions {
-  std::filesystem::path folder;
-  std::string name;  ///< of the files: FOLDER/vertex-face/NAME.csv or .npy, and edge-edge likewise
-  bool as_npy = false;  ///< an eighth of the size
-};
-
 class Recorder {
  public:
+  /// Makes FOLDER/vertex-face/NAME.npy and FOLDER/edge-edge/NAME.npy.
   /// \throws verify::io::DatasetError if no file can be created there.
-  explicit Recorder(RecorderOptions options);
-  ~Recorder();
-  Recorder(const Recorder&) = delete;
-  Recorder& operator=(const Recorder&) = delete;
-  Recorder(Recorder&&) = delete;
-  Recorder& operator=(Recorder&&) = delete;
+  Recorder(const std::filesystem::path& folder, const std::string& name);
 
   void add(Kind kind, const Query& query);
 
@@ -36,14 +28,27 @@ class Recorder {
   /// written.
   void close();
 
-  [[nodiscard]] std::uint64_t queries(Kind kind) const;
-  [[nodiscard]] std::uint64_t collisions(Kind kind) const;
+  [[nodiscard]] std::uint64_t queries(Kind kind) const { return file(kind).queries; }
+  [[nodiscard]] std::uint64_t collisions(Kind kind) const { return file(kind).collisions; }
 
  private:
-  class File;
+  /// The queries of one kind.
+  struct File {
+    File(Kind kind, const std::filesystem::path& folder, const std::string& name);
+    void write_pending();
 
-  RecorderOptions options_;
-  std::array<std::unique_ptr<File>, 2> files_;
+    Kind kind;
+    verify::data::NpyWriter npy;
+    verify::io::OutputFile labels;
+    std::vector<Query> pending;
+    std::uint64_t queries = 0, collisions = 0;
+  };
+
+  [[nodiscard]] const File& file(Kind kind) const {
+    return files_[kind == Kind::edge_edge ? 1 : 0];
+  }
+
+  std::array<File, 2> files_;
 };
 
 }  // namespace touchstone::simulation

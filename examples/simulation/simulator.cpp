@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <mutex>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -20,7 +19,6 @@ namespace touchstone::simulation {
 namespace {
 
 using Eigen::Index;
-using Eigen::Matrix3d;
 using Eigen::SparseMatrix;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
@@ -43,12 +41,28 @@ ContactWeights weights_of(const fast::Step& step, const fast::ActiveContact& con
   return result;
 }
 
+/// Of Newton's method, or of adding constraints, in a time step.
+constexpr int max_iterations = 60;
+/// Newton's method ends when no vertex would move faster than this, in m/s.
+constexpr double velocity_tolerance = 5e-3;
+
 using Factorisation = Eigen::SimplicialLDLT<SparseMatrix<double>>;
 
-/// Factorises the Hessian, and solves for the step to the minimum of the quadratic model. Adds its
-/// time.
-VectorXd newton_step(Factorisation& solver, const Derivatives& derivatives, double& seconds) {
-  const Stopwatch stopwatch(seconds);
+/// Removes fixed coordinates from a system of equations: no gradient, and a row of the identity.
+void hold(const World& world, Derivatives& derivatives) {
+  std::erase_if(derivatives.hessian, [&](const auto& entry) {
+    return world.is_held(entry.row()) || world.is_held(entry.col());
+  });
+  for (Index i = 0; i < derivatives.gradient.size(); ++i) {
+    if (!world.is_held(i)) continue;
+    derivatives.gradient[i] = 0.0;
+    derivatives.hessian.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
+  }
+}
+
+/// Factorises the Hessian, and solves for the step to the minimum of the quadratic model.
+VectorXd newton_step(Factorisation& solver, const World& world, Derivatives& derivatives) {
+  hold(world, derivatives);
   const Index n = derivatives.gradient.size();
   SparseMatrix<double> hessian(n, n);
   hessian.setFromTriplets(derivatives.hessian.begin(), derivatives.hessian.end());
@@ -59,16 +73,16 @@ VectorXd newton_step(Factorisation& solver, const Derivatives& derivatives, doub
 
 }  // namespace
 
-Simulator::Simulator(const World& world, CollisionDetector& detector,
-                     const SimulatorOptions& options)
-    : world_(world),
+Simulator::Simulator(Scene scene, CollisionDetector& detector, ContactModel model)
+    : scene_(std::move(scene)),
+      world_(scene_),
       detector_(detector),
-      options_(options),
-      x_(world.start()),
-      v_(world.start_velocity()) {}
+      model_(model),
+      x_(world_.start()),
+      v_(world_.start_velocity()) {}
 
 double Simulator::energy(const VectorXd& x, Derivatives* derivatives) const {
-  const double h = options_.time_step;
+  const double h = scene_.time_step;
   const VectorXd& masses = world_.masses();
   const VectorXd away = x - free_;
   const double result =
@@ -83,94 +97,72 @@ double Simulator::energy(const VectorXd& x, Derivatives* derivatives) const {
   return result;
 }
 
-void Simulator::hold(Derivatives& derivatives) const {
-  std::erase_if(derivatives.hessian, [&](const auto& entry) {
-    return world_.is_held(entry.row()) || world_.is_held(entry.col());
-  });
-  for (Index i = 0; i < derivatives.gradient.size(); ++i) {
-    if (!world_.is_held(i)) continue;
-    derivatives.gradient[i] = 0.0;
-    derivatives.hessian.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
-  }
-}
-
 void Simulator::take_time_step(const Frame& frame) {
-  const Stopwatch stopwatch(statistics_.total_seconds);
-  const double h = options_.time_step;
+  const Stopwatch stopwatch(statistics_.seconds);
+  const double h = scene_.time_step;
   time_ += h;
   free_ = x_ + h * v_;
   for (Index i = 0; i < x_.size(); ++i) {
     if (world_.is_held(i)) {
       free_[i] = x_[i];
     } else {
-      free_[i] += h * h * options_.gravity[i % 3];
+      free_[i] += h * h * scene_.gravity[i % 3];
     }
   }
   const VectorXd before = x_;
-  x_ = next(frame);
+  x_ = model_ == ContactModel::barrier ? next_with_barriers(frame) : next_with_constraints(frame);
   v_ = (x_ - before) / h;
   ++statistics_.time_steps;
 }
 
 // ---- Barrier ----
 
-double BarrierSimulator::barrier(const VectorXd& x, Derivatives* derivatives) {
-  const double reach = options_.activation_distance;
+double Simulator::barrier(const VectorXd& x, Derivatives* derivatives) {
+  const double reach = scene_.activation_distance;
   // A vertex of mean mass with the greatest initial speed is stopped at a distance of about d̂/2.
   const double speed = std::max(1.0, world_.start_velocity().lpNorm<Eigen::Infinity>());
-  const double stiffness = 100.0 * world_.masses().mean() * reach * options_.time_step * speed;
+  const double stiffness = 100.0 * world_.masses().mean() * reach * scene_.time_step * speed;
   const fast::Step rest = world_.step(x, x, {.distance = reach});
-  std::vector<fast::ActiveContact> contacts;
-  std::mutex mutex;
-  rest.candidates([&](const fast::StepCandidates& found) {
-    for (const fast::IndexPair& pair : found.pairs) {
-      const fast::ActiveContact contact = fast::contact_at(rest, found.kind, pair, 0.0);
-      if ((contact.first - contact.second).squaredNorm() >= reach * reach) continue;
-      const std::scoped_lock lock(mutex);
-      contacts.push_back(contact);
-    }
-  });
-  // Sorted, because sums of doubles depend on their order, and the order of the search on its
-  // threads.
-  std::ranges::sort(contacts, {},
-                    [](const fast::ActiveContact& one) { return std::pair(one.kind, one.pair); });
   double result = 0.0;
-  for (const fast::ActiveContact& contact : contacts) {
-    const Vector3d difference = contact.first - contact.second;
-    const double s = difference.norm() / reach;
-    if (!(s > 0.0)) return std::numeric_limits<double>::infinity();
-    const double log = std::log(s), from = s - 1.0;
-    result -= stiffness * from * from * log;
-    if (derivatives == nullptr) continue;
-    const double slope = stiffness / reach * (-2.0 * from * log - from * from / s);
-    const double curvature =
-        stiffness / (reach * reach) * (-2.0 * log - 4.0 * from / s + from * from / (s * s));
-    const Vector3d n = difference.normalized();
-    const ContactWeights of = weights_of(rest, contact);
-    Eigen::Matrix<double, 12, 1> distance_gradient;
-    for (std::size_t a = 0; a < 4; ++a)
-      distance_gradient.segment<3>(3 * static_cast<Index>(a)) = of.weights[a] * n;
-    derivatives->add(of.vertices, slope * distance_gradient,
-                     curvature * distance_gradient * distance_gradient.transpose());
+  std::uint64_t contacts = 0;
+  for (const auto& [kind, pairs] : candidates_of(rest)) {
+    for (const fast::IndexPair& pair : pairs) {
+      const fast::ActiveContact contact = fast::contact_at(rest, kind, pair, 0.0);
+      const Vector3d difference = contact.first - contact.second;
+      if (difference.squaredNorm() >= reach * reach) continue;
+      ++contacts;
+      const double s = difference.norm() / reach;
+      if (!(s > 0.0)) return std::numeric_limits<double>::infinity();
+      const double log = std::log(s), from = s - 1.0;
+      result -= stiffness * from * from * log;
+      if (derivatives == nullptr) continue;
+      const double slope = stiffness / reach * (-2.0 * from * log - from * from / s);
+      const double curvature =
+          stiffness / (reach * reach) * (-2.0 * log - 4.0 * from / s + from * from / (s * s));
+      const Vector3d n = difference.normalized();
+      const ContactWeights of = weights_of(rest, contact);
+      Eigen::Matrix<double, 12, 1> distance_gradient;
+      for (std::size_t a = 0; a < 4; ++a)
+        distance_gradient.segment<3>(3 * static_cast<Index>(a)) = of.weights[a] * n;
+      derivatives->add(of.vertices, slope * distance_gradient,
+                       curvature * distance_gradient * distance_gradient.transpose());
+    }
   }
-  statistics_.contacts += derivatives != nullptr ? contacts.size() : 0;
+  statistics_.contacts += derivatives != nullptr ? contacts : 0;
   return result;
 }
 
-double BarrierSimulator::total(const VectorXd& x, Derivatives* derivatives) {
-  const double result = energy(x, derivatives) + barrier(x, derivatives);
-  if (derivatives != nullptr) hold(*derivatives);
-  return result;
+double Simulator::total(const VectorXd& x, Derivatives* derivatives) {
+  return energy(x, derivatives) + barrier(x, derivatives);
 }
 
-VectorXd BarrierSimulator::next(const Frame& frame) {
+VectorXd Simulator::next_with_barriers(const Frame& frame) {
   VectorXd x = x_;
-  for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
-    ++statistics_.iterations;
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
     Derivatives derivatives(x.size());
     const double now = total(x, &derivatives);
     Factorisation solver;
-    const VectorXd direction = newton_step(solver, derivatives, statistics_.linear_seconds);
+    const VectorXd direction = newton_step(solver, world_, derivatives);
     double step_size = detector_.step_size(world_.step(x, x + direction));
     VectorXd there = x + step_size * direction;
     constexpr double least_step_size = 1e-12;
@@ -179,13 +171,12 @@ VectorXd BarrierSimulator::next(const Frame& frame) {
       there = x + step_size * direction;
     }
     if (step_size <= least_step_size) {
-      ++statistics_.stalled;
+      ++statistics_.unfinished;
       return x;
     }
     x = there;
     frame(x);
-    if (direction.lpNorm<Eigen::Infinity>() < options_.velocity_tolerance * options_.time_step)
-      return x;
+    if (direction.lpNorm<Eigen::Infinity>() < velocity_tolerance * scene_.time_step) return x;
   }
   ++statistics_.unfinished;
   return x;
@@ -241,19 +232,17 @@ VectorXd solve(Constraints& constraints, const VectorXd& unconstrained, double e
 
 }  // namespace
 
-VectorXd ConstraintSimulator::next(const Frame& frame) {
+VectorXd Simulator::next_with_constraints(const Frame& frame) {
   Derivatives derivatives(x_.size());
   energy(x_, &derivatives);
-  hold(derivatives);
   Factorisation solver;
-  const VectorXd unconstrained = x_ + newton_step(solver, derivatives, statistics_.linear_seconds);
+  const VectorXd unconstrained = x_ + newton_step(solver, world_, derivatives);
 
-  const double eta = options_.activation_distance;
+  const double eta = scene_.activation_distance;
   VectorXd there = unconstrained;
   Constraints constraints;
   std::set<std::pair<fast::PairKind, fast::IndexPair>> known;
-  for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
-    ++statistics_.iterations;
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
     const fast::Step step = world_.step(x_, there);
     const Index before = constraints.size();
     for (const fast::ActiveContact& contact : detector_.active_set(step, eta)) {
@@ -262,8 +251,7 @@ VectorXd ConstraintSimulator::next(const Frame& frame) {
       constraints.normals.push_back(contact.normal);
     }
     if (constraints.size() == before) break;
-    if (iteration + 1 == options_.max_iterations) ++statistics_.unfinished;
-    const Stopwatch stopwatch(statistics_.linear_seconds);
+    if (iteration + 1 == max_iterations) ++statistics_.unfinished;
     constraints.responses.conservativeResize(x_.size(), constraints.size());
     constraints.multipliers.conservativeResize(constraints.size());
     for (Index i = before; i < constraints.size(); ++i) {
@@ -281,10 +269,8 @@ VectorXd ConstraintSimulator::next(const Frame& frame) {
     statistics_.contacts += static_cast<std::uint64_t>(constraints.size() - before);
   }
   const fast::Step step = world_.step(x_, there);
-  if (!detector_.active_set(step, 0.0).empty()) {
-    ++statistics_.shortened;
+  if (!detector_.active_set(step, 0.0).empty())
     there = x_ + detector_.step_size(step) * (there - x_);
-  }
   frame(there);
   return there;
 }

@@ -37,27 +37,14 @@
 
 namespace touchstone::simulation {
 
-struct SimulatorOptions {
-  Eigen::Vector3d gravity{0.0, 0.0, -9.81};
-  double time_step = 0.01;            ///< h, in seconds
-  double activation_distance = 1e-3;  ///< d̂ of the barrier and η of constraints, in metres
-  int max_iterations = 60;  ///< of Newton's method, or of adding constraints, in a time step
-  /// Newton's method ends when no vertex would move faster than this, in m/s.
-  double velocity_tolerance = 5e-3;
-};
+enum class ContactModel : std::uint8_t { barrier, constraint };
 
 struct SimulatorStatistics {
   std::uint64_t time_steps = 0;
-  std::uint64_t iterations = 0;
-  /// Time steps that ended at max_iterations.
+  /// Time steps that ended before their minimum: without a lower energy, or after all iterations.
   std::uint64_t unfinished = 0;
-  /// Line searches that ended without a lower energy.
-  std::uint64_t stalled = 0;
-  /// Steps under constraints that had to be shortened.
-  std::uint64_t shortened = 0;
-  std::uint64_t contacts = 0;   ///< summed over iterations
-  double linear_seconds = 0.0;  ///< in factorisations and solutions
-  double total_seconds = 0.0;
+  std::uint64_t contacts = 0;  ///< summed over iterations
+  double seconds = 0.0;
 };
 
 /// The simulated world between time steps.
@@ -66,52 +53,33 @@ class Simulator {
   /// Called with the positions after each straight motion.
   using Frame = std::function<void(const Eigen::VectorXd&)>;
 
-  Simulator(const World& world, CollisionDetector& detector, const SimulatorOptions& options);
-  Simulator(const Simulator&) = delete;
-  Simulator& operator=(const Simulator&) = delete;
-  Simulator(Simulator&&) = delete;
-  Simulator& operator=(Simulator&&) = delete;
-  virtual ~Simulator() = default;
+  /// \param detector must outlive the simulator.
+  Simulator(Scene scene, CollisionDetector& detector, ContactModel model);
 
   void take_time_step(const Frame& frame);
 
-  [[nodiscard]] const Eigen::VectorXd& positions() const { return x_; }
+  [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] const SimulatorStatistics& statistics() const { return statistics_; }
 
- protected:
+ private:
   /// The positions at the end of the time step.
-  [[nodiscard]] virtual Eigen::VectorXd next(const Frame& frame) = 0;
+  [[nodiscard]] Eigen::VectorXd next_with_barriers(const Frame& frame);
+  [[nodiscard]] Eigen::VectorXd next_with_constraints(const Frame& frame);
 
   /// E; adds its derivatives.
   double energy(const Eigen::VectorXd& x, Derivatives* derivatives) const;
-  /// Removes fixed coordinates from a system of equations: no gradient, and a row of the identity.
-  void hold(Derivatives& derivatives) const;
+  double barrier(const Eigen::VectorXd& x, Derivatives* derivatives);
+  /// E and the barrier.
+  double total(const Eigen::VectorXd& x, Derivatives* derivatives);
 
-  const World& world_;
+  Scene scene_;
+  World world_;
   CollisionDetector& detector_;
-  SimulatorOptions options_;
+  ContactModel model_;
   Eigen::VectorXd x_, v_;
   Eigen::VectorXd free_;  ///< x̂
   double time_ = 0.0;     ///< at the end of the time step
   SimulatorStatistics statistics_;
-};
-
-class BarrierSimulator final : public Simulator {
- public:
-  using Simulator::Simulator;
-
- private:
-  [[nodiscard]] Eigen::VectorXd next(const Frame& frame) override;
-  double barrier(const Eigen::VectorXd& x, Derivatives* derivatives);
-  double total(const Eigen::VectorXd& x, Derivatives* derivatives);
-};
-
-class ConstraintSimulator final : public Simulator {
- public:
-  using Simulator::Simulator;
-
- private:
-  [[nodiscard]] Eigen::VectorXd next(const Frame& frame) override;
 };
 
 }  // namespace touchstone::simulation

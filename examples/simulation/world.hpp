@@ -4,17 +4,14 @@
 /// All bodies of a scene as one system: positions, masses, and the elastic energy with its
 /// derivatives.
 ///
-/// **Elements.** A tetrahedron or a triangle of cloth moves its material by a linear map F, of
-/// three or two columns: F = Σ x_a b_aᵀ, where the b_a are constants of the element. Tetrahedra
-/// have the energy density
+/// **Elements.** A tetrahedron moves its material by a linear map F = Σ x_a b_aᵀ, where the b_a are
+/// constants of the element. Its energy density is
 ///
 ///     μ/2 (|F|² − 3) − μ (J − 1) + λ/2 (J − 1)²,   J = det F
 ///
 /// ([smith2018], without its last term), a neo-Hookean one that stays finite when an element is
-/// turned inside out. Cloth has that of Saint Venant and Kirchhoff, μ |E|² + λ/2 (tr E)² with E =
-/// (FᵀF − I)/2, and bends with the quadratic energy of [bergou2006]. Each element's Hessian is
-/// projected to the nearest one without negative eigenvalues, so that a Newton step points
-/// downhill.
+/// turned inside out. Each element's Hessian is projected to the nearest one without negative
+/// eigenvalues, so that a Newton step points downhill.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -43,19 +40,12 @@ struct Derivatives {
   std::vector<Eigen::Triplet<double>> hessian;
 };
 
-/// An element with Columns columns of F.
-template <int Columns>
+/// A tetrahedron with the constants of its material.
 struct Element {
-  std::array<std::int32_t, static_cast<std::size_t>(Columns + 1)> vertices;
-  Eigen::Matrix<double, Columns, Columns + 1> b;
-  double measure = 0.0;  ///< volume, or area of cloth
+  Tetrahedron vertices;
+  Eigen::Matrix<double, 3, 4> b;
+  double volume = 0.0;
   double mu = 0.0, lambda = 0.0;
-};
-
-/// Two triangles of cloth with a common edge: the edge's vertices first.
-struct Hinge {
-  std::array<std::int32_t, 4> vertices;
-  Eigen::Vector4d weights;  ///< the energy is |Σ w_a x_a|²/2
 };
 
 class World {
@@ -70,7 +60,7 @@ class World {
   [[nodiscard]] const Eigen::VectorXd& masses() const { return masses_; }
   /// True if the coordinate's vertex belongs to an obstacle.
   [[nodiscard]] bool is_held(Eigen::Index coordinate) const {
-    return is_held_[static_cast<std::size_t>(coordinate / 3)];
+    return groups_[static_cast<std::size_t>(coordinate / 3)] == 0;
   }
 
   /// The energy of elements and pins at positions x and a time; adds its derivatives.
@@ -83,17 +73,13 @@ class World {
 
  private:
   void add(const Body& body);
-  void add_hinges(const Body& body, std::int32_t first);
 
   Eigen::VectorXd start_, velocity_, masses_;
-  std::vector<bool> is_held_;
-  std::vector<std::int32_t> groups_;
+  std::vector<std::int32_t> groups_;  ///< of each vertex: 0 of obstacles, 1 of the others
   std::vector<std::array<std::int32_t, 2>> obstacles_apart_;  ///< group 0, if it has vertices
   std::vector<fast::Face> faces_;
-  std::vector<Element<3>> tetrahedra_;
-  std::vector<Element<2>> triangles_;
-  std::vector<Hinge> hinges_;
-  std::vector<Pin> pins_;  ///< with numbers of vertices in the world
+  std::vector<Element> elements_;
+  std::vector<Pin> pins_;
 };
 
 }  // namespace touchstone::simulation
