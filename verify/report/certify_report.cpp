@@ -508,7 +508,7 @@ KnownAnswer known_query(const std::string& solver, const std::string& file, Kind
           .kind = std::string(to_string(kind)),
           .index = index,
           .distance = separation.distance,
-          .norm = std::string(to_string(separation.norm)),
+          .norm = std::string(to_string(is_zero(separation) ? Norm::l2 : separation.norm)),
           .fault = judge::all_faults.front()};
 }
 
@@ -539,7 +539,7 @@ KnownAnswers read_baseline(const std::filesystem::path& path) {
       const bool is_about_contact = row.size() < 7;
       known.insert({row.at(0), row.at(1), row.at(2), row.at(3),
                     is_about_contact ? 0.0 : row.at(5).get<double>(),
-                    is_about_contact ? "linf" : row.at(6).get<std::string>(), *fault});
+                    is_about_contact ? "l2" : row.at(6).get<std::string>(), *fault});
     }
   } catch (const io::DatasetError&) {
     throw;

@@ -74,7 +74,7 @@ struct KnownAnswer {
   std::string kind;  ///< "vertex-face" and so on
   std::uint64_t index = 0;
   double distance = 0.0;  ///< the minimum separation that was asked, in
-  std::string norm;       ///< "linf" or "l2"
+  std::string norm;       ///< "linf" or "l2"; of contact l2, as both are the same
   judge::Fault fault = judge::Fault::false_negative;
 
   friend auto operator<=>(const KnownAnswer&, const KnownAnswer&) = default;

@@ -229,10 +229,10 @@ TOUCHSTONE_API int32_t touchstone_step_inversions(TouchstoneStep* step,
                                                   size_t* count);
 
 /// A maximal step size, up to the step's t_max: the step from x0 to fl(x0 + fl(alpha fl(x1 − x0)))
-/// is free and, unless alpha is t_max, that of the next double is not. Because of rounding, the step of a larger alpha may
-/// be free too, and that of a smaller one may not. Writes −1 if not even a step of size 0 is free.
-/// TOUCHSTONE_NOT_FINITE if x1 − x0 of a coordinate is greater than any double; the message names
-/// the vertex.
+/// is free and, unless alpha is t_max, that of the next double is not. Because of rounding, the
+/// step of a larger alpha may be free too, and that of a smaller one may not. Writes −1 if not even
+/// a step of size 0 is free. TOUCHSTONE_NOT_FINITE if x1 − x0 of a coordinate is greater than any
+/// double; the message names the vertex.
 TOUCHSTONE_API int32_t touchstone_step_free_step_size(const TouchstoneStep* step, double* alpha);
 
 /// The least distance of all pairs of the step at the time t, in [0,1], and all pairs with this

@@ -225,10 +225,11 @@ TEST(CurvedFamilies, AreFoundByNameAndByDegree) {
   const auto count = [](const std::vector<std::string>& degrees) {
     return families({}, degrees).size();
   };
-  EXPECT_EQ(count({"1"}), families().size());
+  EXPECT_EQ(count({"1"}), families().size() + element_families().size());
   EXPECT_EQ(count({"2"}), 7U);
   EXPECT_EQ(count({"rational", "3"}), 9U);
-  EXPECT_EQ(count({"1", "2", "3", "rational"}), families().size() + curved_families().size());
+  EXPECT_EQ(count({"1", "2", "3", "rational"}),
+            families().size() + curved_families().size() + element_families().size());
 }
 
 /// With the times of impact.

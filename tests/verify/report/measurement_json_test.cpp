@@ -127,7 +127,7 @@ std::vector<jobs::CertifyResult> results_of(
 TEST(Gate, ABaselineIsReadAsItIsWritten) {
   const KnownAnswers known{
       {"naïve \"1\"", "folder/a,b.csv", "vertex-face", 7, 0.1, "l2", Fault::late_toi},
-      {"naive", "a_ee.csv", "edge-edge", 0, 0.0, "linf", Fault::false_negative}};
+      {"naive", "a_ee.csv", "edge-edge", 0, 0.0, "l2", Fault::false_negative}};
   const tests::TemporaryFolder folder;
   EXPECT_EQ(read_baseline(folder.file("known.json", baseline_document(known))), known);
   const auto other =
@@ -137,17 +137,17 @@ TEST(Gate, ABaselineIsReadAsItIsWritten) {
   const auto old =
       folder.file("old.json", R"({"known": [["naive", "a_ee.csv", "edge-edge", 0, "late_toi"]]})");
   EXPECT_EQ(read_baseline(old),
-            (KnownAnswers{{"naive", "a_ee.csv", "edge-edge", 0, 0.0, "linf", Fault::late_toi}}));
+            (KnownAnswers{{"naive", "a_ee.csv", "edge-edge", 0, 0.0, "l2", Fault::late_toi}}));
 }
 
 // New answers and mended ones, and the badge, are in tests/transcripts/certify.md.
 TEST(Gate, AnAnswerIsMendedIfItsQueryWasAskedAtItsSeparationAndAllowedOnesAreNone) {
   EXPECT_TRUE(wrong_answers_of(results_of({{3, Fault::false_positive}})).empty());
-  const KnownAnswers before{{"naive", "a_ee.csv", "edge-edge", 10, 0.0, "linf", Fault::crash},
-                            {"naive", "a_ee.csv", "edge-edge", 10, 0.0, "linf", Fault::late_toi},
+  const KnownAnswers before{{"naive", "a_ee.csv", "edge-edge", 10, 0.0, "l2", Fault::crash},
+                            {"naive", "a_ee.csv", "edge-edge", 10, 0.0, "l2", Fault::late_toi},
                             {"naive", "a_ee.csv", "edge-edge", 10, 0.5, "linf", Fault::crash},
-                            {"naive", "a_ee.csv", "edge-edge", 11, 0.0, "linf", Fault::crash},
-                            {"other", "a_ee.csv", "edge-edge", 10, 0.0, "linf", Fault::crash}};
+                            {"naive", "a_ee.csv", "edge-edge", 11, 0.0, "l2", Fault::crash},
+                            {"other", "a_ee.csv", "edge-edge", 10, 0.0, "l2", Fault::crash}};
   KnownAnswers asked;
   add_of_query(before, known_query("naive", "a_ee.csv", Kind::edge_edge, 10, {.norm = Norm::linf}),
                asked);
