@@ -114,8 +114,41 @@ Kind kind_of(std::int32_t kind) {
   throw std::invalid_argument("kind is none of TouchstoneKind that queries have");
 }
 
+/// The caller's structure; members beyond its size are those of `usual`, which the header's
+/// function `initialiser` returns. Its first version had the size `first`.
+template <class Structure>
+Structure taken(const Structure* given, Structure usual, std::size_t first,
+                const char* initialiser) {
+  if (given == nullptr) return usual;
+  const std::size_t size = given->size;
+  if (size < first || size > sizeof(Structure) || size % alignof(Structure) != 0) {
+    const std::string is = "size is " + std::to_string(size) + " bytes, ";
+    throw std::invalid_argument(
+        size > sizeof(Structure)
+            ? is + "but this library, version " TOUCHSTONE_VERSION ", knows " +
+                  std::to_string(sizeof(Structure)) + ": start from " + initialiser +
+                  "(), with the header of this library or an older one"
+            : is + "which no version of this structure has: start from " + initialiser +
+                  "(), which sets it");
+  }
+  std::memcpy(&usual, given, size);
+  return usual;
+}
+
 TouchstoneOptions given(const TouchstoneOptions* options) {
-  return options != nullptr ? *options : touchstone_default_options();
+  return taken(options, touchstone_default_options(), sizeof(TouchstoneOptions),
+               "touchstone_default_options");
+}
+
+TouchstoneMesh given(const TouchstoneMesh* mesh) {
+  return taken(&required(mesh, "mesh"), touchstone_empty_mesh(),
+               offsetof(TouchstoneMesh, tetrahedra), "touchstone_empty_mesh");
+}
+
+TouchstoneLineSearchOptions given(const TouchstoneLineSearchOptions* options) {
+  return taken(options, touchstone_default_line_search_options(),
+               offsetof(TouchstoneLineSearchOptions, kept_volume),
+               "touchstone_default_line_search_options");
 }
 
 Separation separation_of(const TouchstoneOptions& options) {
@@ -312,12 +345,6 @@ const char* touchstone_version() { return TOUCHSTONE_VERSION; }
 
 const char* touchstone_last_error() { return last_error().c_str(); }
 
-TouchstoneOptions touchstone_default_options() {
-  const touchstone::fast::CertifiedOptions usual;
-  return {usual.separation.distance, usual.t_max, usual.toi_tolerance, TOUCHSTONE_L2,
-          usual.max_threads};
-}
-
 std::int32_t touchstone_solve(std::int32_t kind, std::size_t count, const double* coordinates,
                               const TouchstoneOptions* options, TouchstoneImpact* impacts) {
   return guarded([&] { solve(kind, count, coordinates, given(options), impacts); });
@@ -333,7 +360,7 @@ std::int32_t touchstone_step_new(const TouchstoneMesh* mesh, const TouchstoneOpt
                                  TouchstoneStep** step) {
   return guarded([&] {
     TouchstoneStep*& written = required(step, "step");
-    written = new TouchstoneStep{.step = step_of(required(mesh, "mesh"), given(options))};
+    written = new TouchstoneStep{.step = step_of(given(mesh), given(options))};
   });
 }
 
@@ -434,20 +461,14 @@ std::int32_t touchstone_step_active_set(TouchstoneStep* step, double eta, std::i
   });
 }
 
-TouchstoneLineSearchOptions touchstone_default_line_search_options() {
-  return {TOUCHSTONE_L2, TOUCHSTONE_OF_SCENE, 0.0};
-}
-
 std::int32_t touchstone_step_line_search_limit(TouchstoneStep* step, double p,
                                                const TouchstoneLineSearchOptions* options,
                                                TouchstoneLineSearchLimit* limit) {
   return guarded([&] {
     TouchstoneStep& asked = required(step, "step");
     TouchstoneLineSearchLimit& written = required(limit, "limit");
-    const touchstone::fast::LineSearchLimit found = touchstone::fast::line_search_limit(
-        asked.step, p,
-        line_search_options_of(options != nullptr ? *options
-                                                  : touchstone_default_line_search_options()));
+    const touchstone::fast::LineSearchLimit found =
+        touchstone::fast::line_search_limit(asked.step, p, line_search_options_of(given(options)));
     refill(asked.limiting, found.pairs, collision_of);
     refill(asked.limiting_elements, found.inversions, inversion_in_step);
     written = {static_cast<std::int32_t>(found.status),

@@ -8,7 +8,7 @@ int main(void) {
   const double before[18] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 1, 3, 1, 1, 1, 3, 1};
   const double after[18] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, -2, 3, 1, -2, 1, 3, -2};
   const int32_t faces[6] = {0, 1, 2, 3, 4, 5};
-  TouchstoneMesh mesh = {0};
+  TouchstoneMesh mesh = touchstone_empty_mesh();
   mesh.vertices = 6;
   mesh.before = before;
   mesh.after = after;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -84,7 +85,7 @@ struct Scene {
   std::array<std::int32_t, 1> points{6};
 
   [[nodiscard]] TouchstoneMesh mesh() const {
-    TouchstoneMesh mesh{};
+    TouchstoneMesh mesh = touchstone_empty_mesh();
     mesh.vertices = 9;
     mesh.before = before.data();
     mesh.after = after.data();
@@ -240,7 +241,8 @@ TEST(CInterface, DecidesAndMeasuresAStep) {
     EXPECT_GT(count, 0U);
     expect_same(of_collisions, fast::contacts_of(step, step.collisions()));
 
-    const TouchstoneLineSearchOptions of_pair{TOUCHSTONE_LINF, TOUCHSTONE_OF_PAIR, 0.0};
+    const TouchstoneLineSearchOptions of_pair{sizeof(of_pair), TOUCHSTONE_LINF, TOUCHSTONE_OF_PAIR,
+                                              0.0};
     for (const TouchstoneLineSearchOptions* const options :
          {&of_pair, static_cast<const TouchstoneLineSearchOptions*>(nullptr)}) {
       TouchstoneLineSearchLimit limit{};
@@ -308,7 +310,7 @@ TEST(CInterface, KeepsElementsFromInverting) {
   for (const std::size_t count : {1U, 2U}) {
     std::vector<fast::Tetrahedron> tetrahedra{{0, 1, 2, 3}, {0, 1, 1, 3}};
     tetrahedra.resize(count);
-    TouchstoneMesh mesh{};
+    TouchstoneMesh mesh = touchstone_empty_mesh();
     mesh.vertices = 4;
     mesh.before = before.data();
     mesh.after = after.data();
@@ -405,8 +407,8 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
                           bad_time = with([](auto&o) { o.t_max = 2.0; }),
                           bad_distance = with([](auto&o) { o.min_separation = -1.0; }),
                           distant = with([](auto&o) { o.min_separation = 1.0; });
-  const TouchstoneLineSearchOptions other_norm{2, TOUCHSTONE_OF_PAIR, 0.0},
-      other_start{TOUCHSTONE_L2, 2, 0.0};
+  const TouchstoneLineSearchOptions other_norm{sizeof(other_norm), 2, TOUCHSTONE_OF_PAIR, 0.0},
+      other_start{sizeof(other_start), TOUCHSTONE_L2, 2, 0.0};
   const std::vector<Query> queries = random_queries(1);
   const double* const x = queries[0].coordinates.data();
   Query far = queries[0];
@@ -537,6 +539,107 @@ TEST(CInterface, RefusesMeshesByStatus) {
     expect_message(says);
     EXPECT_EQ(step, nullptr) << "nothing is written";
   }
+}
+
+/// The first header with sizes, without what may be added; a caller that was compiled with it.
+struct MeshOfFirstHeader {
+  std::size_t size, vertices;
+  const double *before, *after;
+  std::size_t edges;
+  const std::int32_t* edge_vertices;
+  std::size_t faces;
+  const std::int32_t* face_vertices;
+  std::size_t points;
+  const std::int32_t *point_vertices, *groups;
+  std::size_t apart;
+  const std::int32_t* apart_groups;
+  std::int32_t (*can_collide)(void*, std::int32_t, std::int32_t);
+  void* can_collide_context;
+  std::size_t radii;
+  const double* group_radii;
+  std::size_t separations;
+  const std::int32_t* separated_groups;
+  const double* group_separations;
+};
+
+struct LineSearchOptionsOfFirstHeader {
+  std::size_t size;
+  std::int32_t norm, start_distance;
+};
+
+// The layouts of this SOVERSION, on machines of 64 bits. Only what can grow may grow, at its end.
+static_assert(sizeof(MeshOfFirstHeader) == offsetof(TouchstoneMesh, tetrahedra));
+static_assert(sizeof(TouchstoneOptions) == 40 && offsetof(TouchstoneOptions, max_threads) == 36);
+static_assert(sizeof(TouchstoneMesh) == 192 &&
+              offsetof(TouchstoneMesh, plane_triangle_vertices) == 184);
+static_assert(sizeof(TouchstoneLineSearchOptions) == 24 &&
+              offsetof(TouchstoneLineSearchOptions, kept_volume) == 16);
+static_assert(sizeof(TouchstoneImpact) == 40 && offsetof(TouchstoneImpact, v) == 32);
+static_assert(sizeof(TouchstoneDistance) == 16 && sizeof(TouchstonePair) == 12);
+static_assert(sizeof(TouchstoneCollision) == 48 && offsetof(TouchstoneCollision, v) == 40);
+static_assert(sizeof(TouchstoneStepInversion) == 32 &&
+              offsetof(TouchstoneStepInversion, toi_upper) == 24);
+static_assert(sizeof(TouchstoneActiveContact) == 144 &&
+              offsetof(TouchstoneActiveContact, has_side) == 136);
+static_assert(sizeof(TouchstoneLineSearchLimit) == 64 &&
+              offsetof(TouchstoneLineSearchLimit, inversion_count) == 56);
+
+TEST(CInterface, TakesStructuresOfOlderHeadersAndRefusesOtherSizes) {
+  const auto [usual, certified] = std::pair(touchstone_default_options(), fast::CertifiedOptions{});
+  EXPECT_EQ(std::tuple(usual.min_separation, usual.t_max, usual.toi_tolerance, usual.max_threads),
+            std::tuple(certified.separation.distance, certified.t_max, certified.toi_tolerance,
+                       certified.max_threads));
+  const Scene scene;
+  // Beyond the caller's structures lie numbers that are none of theirs.
+  struct {
+    MeshOfFirstHeader mesh{};
+    std::array<std::size_t, 4> tetrahedra{7, 7, 7, 7};
+  } older;
+  struct {
+    LineSearchOptionsOfFirstHeader options{sizeof(options), TOUCHSTONE_LINF, TOUCHSTONE_OF_PAIR};
+    double kept_volume = -7.0;
+  } older_search;
+  TouchstoneMesh today = scene.mesh();
+  std::memcpy(&older.mesh, &today, sizeof(older.mesh));
+  older.mesh.size = sizeof(older.mesh);
+  const auto* const mesh = reinterpret_cast<const TouchstoneMesh*>(&older.mesh);
+  const auto step = step_of(*mesh), same = step_of(today);
+  double found = 0.0, expected = 0.0;
+  EXPECT_EQ(touchstone_step_free_step_size(step.get(), &found), TOUCHSTONE_OK);
+  EXPECT_EQ(touchstone_step_free_step_size(same.get(), &expected), TOUCHSTONE_OK);
+  EXPECT_EQ(found, expected);
+  TouchstoneLineSearchLimit limit{};
+  EXPECT_EQ(
+      touchstone_step_line_search_limit(
+          step.get(), 0.5,
+          reinterpret_cast<const TouchstoneLineSearchOptions*>(&older_search.options), &limit),
+      TOUCHSTONE_OK)
+      << touchstone_last_error();
+
+  TouchstoneOptions options = usual;
+  TouchstoneLineSearchOptions search = touchstone_default_line_search_options();
+  TouchstoneStep* none = nullptr;
+  TouchstoneImpact impact{};
+  const Query query = random_queries(1)[0];
+  const auto refuses = [](std::size_t& size, std::size_t first, const std::string& initialiser,
+                          const auto& call) {
+    const std::size_t known = size;
+    for (const std::size_t wrong : {std::size_t{0}, first - 8, first + 4, known + 8}) {
+      size = wrong;
+      EXPECT_EQ(call(), TOUCHSTONE_INVALID_ARGUMENT) << wrong;
+      expect_message("size is " + std::to_string(wrong) + " bytes, " +
+                     (wrong > known ? "but this library, version " TOUCHSTONE_VERSION ", knows " +
+                                          std::to_string(known)
+                                    : "which no version of this structure has"));
+      expect_message("start from " + initialiser + "()");
+    }
+  };
+  refuses(today.size, sizeof(older.mesh), "touchstone_empty_mesh",
+          [&] { return touchstone_step_new(&today, nullptr, &none); });
+  refuses(options.size, sizeof(options), "touchstone_default_options",
+          [&] { return touchstone_solve(0, 1, query.coordinates.data(), &options, &impact); });
+  refuses(search.size, sizeof(older_search.options), "touchstone_default_line_search_options",
+          [&] { return touchstone_step_line_search_limit(step.get(), 0.5, &search, &limit); });
 }
 
 TEST(CInterface, KeepsTheErrorsOfThreadsApart) {

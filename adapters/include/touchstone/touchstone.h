@@ -16,11 +16,21 @@
 /// **Memory.** Arrays that a function of a step returns are valid until its next call with this
 /// step that returns TOUCHSTONE_OK, or until the step is freed.
 ///
+/// **Structures.** TouchstoneOptions, TouchstoneMesh and TouchstoneLineSearchOptions, which the
+/// caller fills in, can grow at their ends, within one SOVERSION. They begin with their size in
+/// bytes, as the caller's header has it: start from touchstone_default_options(),
+/// touchstone_empty_mesh() or touchstone_default_line_search_options(), which set it. A newer
+/// library takes the members beyond the caller's size as they are there. A size less than that of
+/// the first version (0 was forgotten), or greater than the library knows, is
+/// TOUCHSTONE_INVALID_ARGUMENT. All other structures, the results, keep their layout within one
+/// SOVERSION. Members neither move nor change their meaning.
+///
 /// **Threads.** All functions are thread-safe, but of the functions that take a step without
 /// `const`, only one at a time may use the same step.
 
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -76,6 +86,7 @@ enum TouchstoneStatus {
 };
 
 typedef struct TouchstoneOptions {
+  size_t size;            ///< bytes of this structure, sizeof(TouchstoneOptions)
   double min_separation;  ///< a distance up to this is contact; finite, 0 or more
   double t_max;           ///< only contacts up to this time count, in [0,1]
   double toi_tolerance;   ///< greatest relative width of times of impact; finite, 0 or more
@@ -90,8 +101,11 @@ TOUCHSTONE_API const char* touchstone_version(void);
 /// The message of the last call of this thread that failed; valid until its next call.
 TOUCHSTONE_API const char* touchstone_last_error(void);
 
-/// The default options: 0, 1, 1e-12, TOUCHSTONE_L2, 0.
-TOUCHSTONE_API TouchstoneOptions touchstone_default_options(void);
+/// The default options: 0, 1, 1e-12, TOUCHSTONE_L2, 0. (Here, so that the size is the caller's.)
+static inline TouchstoneOptions touchstone_default_options(void) {
+  const TouchstoneOptions options = {sizeof(TouchstoneOptions), 0.0, 1.0, 1e-12, TOUCHSTONE_L2, 0};
+  return options;
+}
 
 // ---- Queries ------------------------------------------------------------------------------------
 
@@ -136,6 +150,7 @@ TOUCHSTONE_API int32_t touchstone_distances(int32_t kind, size_t count, const do
 
 /// A mesh before and after a step. Unused members are 0 (null pointers).
 typedef struct TouchstoneMesh {
+  size_t size;  ///< bytes of this structure, sizeof(TouchstoneMesh)
   size_t vertices;
   const double* before;          ///< 3 · vertices coordinates at t=0
   const double* after;           ///< the same at t=1
@@ -172,6 +187,14 @@ typedef struct TouchstoneMesh {
   size_t plane_triangles;
   const int32_t* plane_triangle_vertices;  ///< 3 · plane_triangles
 } TouchstoneMesh;
+
+/// A mesh of which everything is 0 but the size.
+static inline TouchstoneMesh touchstone_empty_mesh(void) {
+  TouchstoneMesh mesh;
+  memset(&mesh, 0, sizeof(mesh));
+  mesh.size = sizeof(mesh);
+  return mesh;
+}
 
 /// A step of a mesh, made by touchstone_step_new.
 typedef struct TouchstoneStep TouchstoneStep;
@@ -289,6 +312,7 @@ enum TouchstoneLimitReason {
 };
 
 typedef struct TouchstoneLineSearchOptions {
+  size_t size;             ///< bytes of this structure, sizeof(TouchstoneLineSearchOptions)
   int32_t norm;            ///< one of TouchstoneNorm
   int32_t start_distance;  ///< one of TouchstoneStartDistance
   double kept_volume;  ///< the part of its volume at t=0 of which an element keeps more, in [0,1)
@@ -305,7 +329,11 @@ typedef struct TouchstoneLineSearchLimit {
 } TouchstoneLineSearchLimit;
 
 /// The default options: TOUCHSTONE_L2, TOUCHSTONE_OF_SCENE, 0.
-TOUCHSTONE_API TouchstoneLineSearchOptions touchstone_default_line_search_options(void);
+static inline TouchstoneLineSearchOptions touchstone_default_line_search_options(void) {
+  const TouchstoneLineSearchOptions options = {sizeof(TouchstoneLineSearchOptions), TOUCHSTONE_L2,
+                                               TOUCHSTONE_OF_SCENE, 0.0};
+  return options;
+}
 
 /// The greatest step size, rounded down by at most the step's toi_tolerance, up to which all
 /// primitives, with radii thick ones, stay at least p times as far apart as at the start, and all
