@@ -24,6 +24,6 @@ if __name__ == "__main__":
     close = time.refine(Fraction(1, 10**50))
     digits = close.lower.numerator * 10**40 // close.lower.denominator
     print(f"its first forty digits: 0.{digits:040d}")
-    answer = touchstone.certified("edge_edge", query)
+    answer = touchstone.solve("edge_edge", query)
     print("the certified solver encloses it:", answer.toi_lower, answer.toi_upper)
     print("a proof:", touchstone.check(touchstone.prove("edge_edge", query)))

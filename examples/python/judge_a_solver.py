@@ -10,7 +10,7 @@ from naive_cubic import naive_cubic
 
 if __name__ == "__main__":
     # The built-in set: degenerate queries whose truth is known by construction.
-    judgement = touchstone.certify(naive_cubic, count=2)
+    judgement = touchstone.judge(naive_cubic, count=2)
     print(judgement)
 
     # A search for the simplest query that it answers wrongly.

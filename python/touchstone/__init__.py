@@ -4,37 +4,38 @@ A query is an array of shape (8, 3): four points at t=0, then at t=1; a batch ha
 
 >>> import numpy as np, touchstone
 >>> queries = np.random.default_rng(1).normal(size=(1000, 8, 3))
->>> touchstone.certified("edge_edge", queries)
+>>> touchstone.solve("edge_edge", queries)
 CertifiedResult: 1000 queries, 201 collide
 """
+
+from typing import TYPE_CHECKING, NoReturn
 
 from ._fast import instruction_set
 from ._input import BatchResult, Interrupted
 from ._version import commit as __commit__
 from ._version import version as __version__
 from .batch import (
+    Answers,
     CertifiedResult,
     DistanceResult,
     Stage,
     TightInclusionResult,
-    certified,
+    Verdict,
     distance,
+    solve,
     tight_inclusion,
 )
 from .exact import (
     AlgebraicNumber,
-    Answers,
     CheckReport,
+    Curve,
     Decisions,
     Method,
     Rejection,
-    Verdict,
     check,
     decide,
-    decide_curved,
     methods,
     prove,
-    solve,
 )
 from .judging import (
     Finding,
@@ -43,10 +44,10 @@ from .judging import (
     Queries,
     View,
     WrongAnswer,
-    certify,
     families,
     fuzz,
     generate,
+    judge,
     read,
     view,
     write,
@@ -71,6 +72,7 @@ __all__ = [
     "BatchResult",
     "CertifiedResult",
     "CheckReport",
+    "Curve",
     "Decisions",
     "DistanceResult",
     "ElementKind",
@@ -96,17 +98,15 @@ __all__ = [
     "WrongAnswer",
     "__commit__",
     "__version__",
-    "certified",
-    "certify",
     "check",
     "decide",
-    "decide_curved",
     "distance",
     "families",
     "fuzz",
     "generate",
     "instruction_set",
     "intersections",
+    "judge",
     "methods",
     "prove",
     "prove_mesh",
@@ -116,3 +116,17 @@ __all__ = [
     "view",
     "write",
 ]
+
+#: Former names, refused for one version.
+_FORMER_NAMES = {
+    "certified": "solve(kind, queries)",
+    "certify": "judge(solver, data)",
+    "decide_curved": "decide(kind, [Curve(...), ...])",
+}
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> NoReturn:
+        if name in _FORMER_NAMES:
+            raise AttributeError(f"touchstone.{name} has become touchstone.{_FORMER_NAMES[name]}")
+        raise AttributeError(f"module 'touchstone' has no attribute {name!r}")

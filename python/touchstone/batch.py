@@ -1,15 +1,17 @@
-"""Batches of queries: the certified solver, Tight-Inclusion and distances, outside Python's lock."""
+"""Batches of queries: solvers and distances, outside Python's lock."""
 
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any, Callable, Type, TypeVar
+from functools import wraps
+from typing import Any, Callable, Type, TypeVar, cast, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _fast
-from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm, as_queries, checked, column
+from ._input import BatchResult, Booleans, Doubles, Function, Interrupted, Kind, Norm
+from ._input import as_queries, checked, column, load
 from ._tool import Progress
 
 _certified_type = np.dtype(_fast.certified_layout())
@@ -72,20 +74,91 @@ class CertifiedResult(BatchResult):
     stage: npt.NDArray[np.uint8] = column("The number of the stage that decided: see `Stage`.")
 
 
-@checked
-def certified(
+class Verdict(IntEnum):
+    """The answer of a method."""
+
+    NO = 0
+    YES = 1
+    UNDECIDED = 2
+    ERROR = 3
+
+
+class Answers(BatchResult):
+    """Answers of a method by name."""
+
+    @property
+    def collides(self) -> Booleans:
+        """True for yes and for undecided: what is to be taken for a collision."""
+        return np.isin(self.verdict, (Verdict.YES, Verdict.UNDECIDED))[()]
+
+    verdict: npt.NDArray[np.uint8] = column("The verdicts: see `Verdict`.")
+    toi_lower: Doubles = column("Claimed not to be above the time of impact; NaN where the method has none.")
+    toi_upper: Doubles = column("Claimed not to be below the time of impact; NaN where the method has none.")
+    tolerance: Doubles = column("The claimed bound of the distance beyond contact; NaN where the method has none.")
+    checks: npt.NDArray[np.uint32] = column("The number of steps that the method counts.")
+
+
+def _not_in_the_former_order(function: Function) -> Function:
+    """Refuse solve(method, kind, queries), which it was up to version 0.4, and name what it is now."""
+
+    @wraps(function)
+    def call(*arguments: Any, **options: Any) -> Any:
+        if len(arguments) > 2:
+            raise TypeError("solve(method, kind, queries) has become solve(kind, queries, method=...)")
+        return function(*arguments, **options)
+
+    return cast(Function, call)
+
+
+@overload
+def solve(
     kind: Kind,
     queries: npt.ArrayLike,
     *,
+    separation: float = ...,
+    norm: Norm = ...,
+    t_max: float = ...,
+    toi_tolerance: float | None = ...,
+    threads: int = ...,
+    progress: bool | None = ...,
+    out: CertifiedResult | None = ...,
+) -> CertifiedResult: ...
+@overload
+def solve(
+    kind: Kind,
+    queries: npt.ArrayLike,
+    *,
+    method: str,
+    separation: float = ...,
+    norm: Norm = ...,
+    t_max: float = ...,
+    tolerance: float | None = ...,
+    max_checks: int | None = ...,
+    threads: int = ...,
+    progress: bool | None = ...,
+    out: Answers | None = ...,
+) -> Answers: ...
+@_not_in_the_former_order
+@checked
+def solve(
+    kind: Kind,
+    queries: npt.ArrayLike,
+    *,
+    method: str | None = None,
     separation: float = 0.0,
     norm: Norm = "l2",
     t_max: float = 1.0,
-    toi_tolerance: float = 1e-12,
+    toi_tolerance: float | None = None,
+    tolerance: float | None = None,
+    max_checks: int | None = None,
     threads: int = 0,
     progress: bool | None = None,
-    out: CertifiedResult | None = None,
-) -> CertifiedResult:
+    out: Any = None,
+) -> CertifiedResult | Answers:
     """Decide queries with the certified solver: exact verdicts, enclosed times of impact.
+
+    Or with any method by its name, such as the published ones with their errors; it is asked all queries, also those
+    outside of its terms.
 
     Parameters
     ----------
@@ -96,6 +169,8 @@ def certified(
         it is float64 and C-contiguous; anything else is converted, float32 exactly. Or of shape
         (N, k + 1, 4, 3) or (k + 1, 4, 3): control points of Bézier curves of degree k, 1 to 8, from
         t=0 to t=1; with 4 instead of 3 numbers, the last one a positive weight, rational curves.
+    method : str, optional
+        The name of one of `methods`; by default the certified solver.
     separation : float, optional
         The distance that counts as contact, in units of the coordinates.
     norm : {"linf", "l2"}, optional
@@ -103,25 +178,34 @@ def certified(
     t_max : float, optional
         Only contacts up to this time count, in [0, 1].
     toi_tolerance : float, optional
-        The maximum width of the enclosures of times, relative to their upper ends.
+        Without `method`: the maximum width of the enclosures of times, relative to their upper ends; by
+        default 1e-12.
+    tolerance : float, optional
+        With `method`: of those that search down to one; by default 1e-6.
+    max_checks : int, optional
+        With `method`: of iterative ones, the maximum number of steps for a query; 0: no limit; by default
+        1,000,000.
     threads : int, optional
         The maximum number of threads; 0: one for each core that the process may use. The results do not depend on it.
     progress : bool, optional
         Show a bar from the first second on; by default in terminals and notebooks.
-    out : CertifiedResult, optional
+    out : CertifiedResult or Answers, optional
         The result of an earlier call for as many queries: it is overwritten and returned. This saves
         the time of new memory, a fifth for large batches.
 
     Returns
     -------
     CertifiedResult
-        With the arrays `collides`, `toi_lower`, `toi_upper`, `u`, `v` and `stage`.
+        Without `method`, with the arrays `collides`, `toi_lower`, `toi_upper`, `u`, `v` and `stage`.
+    Answers
+        With it, `verdict`, `collides`, `toi_lower`, `toi_upper`, `tolerance` and `checks`.
 
     Raises
     ------
     ValueError
         For another shape or type, a coordinate that is NaN or infinite, a weight that is not positive,
-        options out of range, or an `out` of another function or number of queries.
+        options out of range or without effect, or an `out` of another function or number of queries; for an
+        unknown method, with the names there are; for a separation, or curves, that it does not support.
     Interrupted
         At Ctrl-C, with the results of the first queries.
 
@@ -133,18 +217,30 @@ def certified(
     >>> start = [[0.25, 0.25, 1], [0, 0, 0], [1, 0, 0], [0, 1, 0]]
     >>> end = [[0.25, 0.25, -1], [0, 0, 0], [1, 0, 0], [0, 1, 0]]
     >>> query = np.array(start + end, dtype=float)
-    >>> answer = touchstone.certified("vertex_face", query)
+    >>> answer = touchstone.solve("vertex_face", query)
     >>> bool(answer.collides), answer.toi_lower <= 0.5 <= answer.toi_upper
     (True, True)
-    >>> touchstone.certified("vertex_face", np.stack([query, query + 0.125])).collides
+    >>> touchstone.solve("vertex_face", np.stack([query, query + 0.125])).collides
     array([ True,  True])
 
     The same vertex on a parabola that touches the triangle:
 
     >>> middle = [[0.25, 0.25, -1], [0, 0, 0], [1, 0, 0], [0, 1, 0]]
-    >>> bool(touchstone.certified("vertex_face", [start, middle, start]).collides)
+    >>> bool(touchstone.solve("vertex_face", [start, middle, start]).collides)
     True
+
+    A method by name:
+
+    >>> touchstone.Verdict(touchstone.solve("vertex_face", query, method="accd").verdict).name
+    'YES'
     """
+    if method is not None:
+        if toi_tolerance is not None:
+            raise ValueError("toi_tolerance is an option of the certified solver; a method by name has tolerance")
+        return _solve_by(method, kind, queries, separation, norm, tolerance, max_checks, t_max, threads, progress, out)
+    if tolerance is not None or max_checks is not None:
+        raise ValueError("tolerance and max_checks are options of a method by name; the certified solver has toi_tolerance")
+    width = 1e-12 if toi_tolerance is None else toi_tolerance
     return run_batch(
         CertifiedResult,
         _certified_type,
@@ -152,8 +248,34 @@ def certified(
         progress,
         out,
         lambda array, items, callback: _fast.certified(
-            kind, array, items, separation, norm, toi_tolerance, t_max, threads, callback
+            kind, array, items, separation, norm, width, t_max, threads, callback
         ),
+        curves=True,
+    )
+
+
+def _solve_by(
+    method: str,
+    kind: Kind,
+    queries: npt.ArrayLike,
+    separation: float,
+    norm: Norm,
+    tolerance: float | None,
+    max_checks: int | None,
+    t_max: float,
+    threads: int,
+    progress: bool | None,
+    out: Answers | None,
+) -> Answers:
+    module = load("_exact")
+    options = separation, norm, 1e-6 if tolerance is None else tolerance, 1_000_000 if max_checks is None else max_checks
+    return run_batch(
+        Answers,
+        np.dtype(module.answer_layout()),
+        queries,
+        progress,
+        out,
+        lambda array, items, callback: int(module.solve(method, kind, array, items, *options, t_max, threads, callback)),
         curves=True,
     )
 
@@ -187,7 +309,7 @@ def tight_inclusion(
     Parameters
     ----------
     kind, queries, separation, norm, t_max, threads, progress, out
-        As for `certified`; of curves, those of degree 2 or 3. With ``norm="l2"`` the answers are conservative.
+        As for `solve`; of curves, those of degree 2 or 3. With ``norm="l2"`` the answers are conservative.
     tolerance : float, optional
         Boxes whose image is this small are not split, in units of the coordinates.
     max_checks : int, optional
@@ -203,7 +325,7 @@ def tight_inclusion(
     Raises
     ------
     ValueError
-        As for `certified`, and for curves of another degree.
+        As for `solve`, and for curves of another degree.
     Interrupted
         At Ctrl-C, with the results of the first queries.
 
@@ -252,7 +374,7 @@ def distance(
     Parameters
     ----------
     kind, queries, threads, progress, out
-        As for `certified`; straight lines alone.
+        As for `solve`; straight lines alone.
     t : float, optional
         The time, in [0, 1].
     norm : {"linf", "l2"}, optional
@@ -266,7 +388,7 @@ def distance(
     Raises
     ------
     ValueError
-        As for `certified`, and for a time outside [0, 1].
+        As for `solve`, and for a time outside [0, 1].
     Interrupted
         At Ctrl-C, with the results of the first queries.
 

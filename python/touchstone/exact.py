@@ -1,12 +1,12 @@
-"""The oracle, certificates, and every method by name: what needs GMP."""
+"""The oracle, certificates, and the list of methods: what needs GMP."""
 
 from __future__ import annotations
 
+import reprlib
 from dataclasses import dataclass
-from enum import IntEnum
 from fractions import Fraction
 from types import ModuleType
-from typing import Any, Literal, Sequence, Tuple, Union
+from typing import Any, Callable, Literal, Sequence, Tuple, Union, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,6 @@ import numpy.typing as npt
 from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm
 from ._input import as_doubles, as_queries, checked, column, load
 from ._tool import Progress
-from .batch import run_batch
 
 
 def exact_module() -> ModuleType:
@@ -113,10 +112,47 @@ class Decisions(BatchResult):
     )
 
 
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A Bézier curve on which one point of a query moves, of a degree of its own.
+
+    Attributes
+    ----------
+    control : array_like of shape (k + 1, 3)
+        The control points from t=0 to t=1, with k from 0 (at rest) to 8.
+    weights : array_like of shape (k + 1,), optional
+        Positive weights, for a rational curve.
+    """
+
+    control: npt.ArrayLike
+    weights: npt.ArrayLike = ()
+
+    def _numbers(self) -> tuple[list[list[float]], list[float]]:
+        points = as_doubles(self.control, "curves")
+        if points.ndim != 2 or points.shape[1] != 3:
+            raise ValueError(f"the control points of a curve have the shape (k + 1, 3), not {points.shape}")
+        weights = as_doubles(self.weights, "weights") if np.size(self.weights) else np.empty(0)
+        if not (np.isfinite(points).all() and np.isfinite(weights).all()):
+            raise ValueError("a number of a curve is not finite")
+        return points.tolist(), weights.reshape(-1).tolist()
+
+
+def _numbers_of(query: Any) -> list[Any]:
+    if not isinstance(query, (list, tuple)) or not all(isinstance(one, Curve) for one in query):
+        raise ValueError(f"a query of curves is a list of four touchstone.Curve, not {reprlib.repr(query)}")
+    if len(query) != 4:
+        raise ValueError(f"a query has four curves, not {len(query)}")
+    return [one._numbers() for one in query]
+
+
+def _is_of_curves(queries: Any) -> bool:
+    return isinstance(queries, (list, tuple)) and any(isinstance(one, Curve) for one in queries)
+
+
 @checked
 def decide(
     kind: Kind,
-    queries: npt.ArrayLike,
+    queries: npt.ArrayLike | Sequence[Curve] | Sequence[Sequence[Curve]],
     *,
     separation: float = 0.0,
     norm: Norm = "l2",
@@ -127,8 +163,11 @@ def decide(
 
     Parameters
     ----------
-    kind, queries, separation, norm, threads, progress
-        As for `certified`.
+    kind, separation, norm, threads, progress
+        As for `solve`.
+    queries : array_like, list of four Curve, or list of such lists
+        An array as for `solve`. Or the curves of the points of a query, or of each of many, in the order v,
+        f0, f1, f2 or ea0, ea1, eb0, eb1, each of its own degree; these are decided by one thread.
 
     Returns
     -------
@@ -138,7 +177,7 @@ def decide(
     Raises
     ------
     ValueError
-        As for `certified`.
+        As for `solve`, or if a curve is not valid.
     Interrupted
         At Ctrl-C, with the results of the first queries.
 
@@ -149,13 +188,28 @@ def decide(
     >>> end = [[0.25, 0.25, -2], [0, 0, 0], [1, 0, 0], [0, 1, 0]]
     >>> touchstone.decide("vertex_face", start + end).toi
     Fraction(1, 3)
+
+    A vertex on a parabola that touches a resting triangle:
+
+    >>> vertex = touchstone.Curve([[0.25, 0.25, 1], [0.25, 0.25, -1], [0.25, 0.25, 1]])
+    >>> touchstone.decide("vertex_face", [vertex, *(touchstone.Curve([point]) for point in start[1:])]).toi
+    Fraction(1, 2)
     """
     module = exact_module()
-    array, single = as_queries(queries, curves=True)
+    array: Any
+    single = _is_of_curves(queries)
+    of_curves = single or (isinstance(queries, (list, tuple)) and any(map(_is_of_curves, queries)))
+    if of_curves:
+        array = [_numbers_of(query) for query in cast(Any, [queries] if single else queries)]
+    else:
+        array, single = as_queries(cast(npt.ArrayLike, queries), curves=True)
     numbers = np.dtype(module.decision_layout())
     items = np.empty(len(array), dtype=numbers)
     with Progress("decide", progress, queries=len(array)) as bar:
-        times = module.decide(kind, array, items, separation, norm, threads, bar.callback)
+        if of_curves:
+            times = _decide_curves(kind, array, items, separation, norm, bar.callback)
+        else:
+            times = module.decide(kind, array, items, separation, norm, threads, bar.callback)
     done = len(times)
     result = np.empty(done, dtype=[*((n, numbers[n]) for n in numbers.names or ()), ("toi", "O")])
     for name in numbers.names or ():
@@ -167,68 +221,21 @@ def decide(
     return Decisions(result.reshape(()) if single else result)
 
 
-def _curve_from(curve: Any) -> tuple[list[list[float]], list[float]]:
-    control, weights = curve if isinstance(curve, tuple) else (curve, ())
-    points = as_doubles(control, "curves")
-    if points.ndim != 2 or points.shape[1] != 3:
-        raise ValueError(f"the control points of a curve have the shape (k + 1, 3), not {points.shape}")
-    numbers = as_doubles(weights, "weights") if np.size(weights) else np.empty(0)
-    if not (np.isfinite(points).all() and np.isfinite(numbers).all()):
-        raise ValueError("a number of a curve is not finite")
-    return points.tolist(), numbers.reshape(-1).tolist()
-
-
-@checked
-def decide_curved(
-    kind: Kind,
-    curves: Sequence[Any],
-    *,
-    separation: float = 0.0,
-    norm: Norm = "l2",
-) -> Decisions:
-    """Decide a query whose points move on Bézier curves, each of its own degree, exactly.
-
-    `decide` takes arrays of curves of one degree.
-
-    Parameters
-    ----------
-    kind, separation, norm
-        As for `certified`.
-    curves : sequence of four curves
-        Of the points in the order of a query: v, f0, f1, f2 or ea0, ea1, eb0, eb1. A curve is its
-        control points, of shape (k + 1, 3) with k from 0 (at rest) to 8; or, for a rational curve, a
-        tuple of these and of k + 1 positive weights. Each has its own degree.
-
-    Returns
-    -------
-    Decisions
-        Of one query: `collides`, `toi_lower`, `toi_upper` and `toi`.
-
-    Raises
-    ------
-    ValueError
-        If a curve is not valid, or a number is not finite.
-
-    Examples
-    --------
-    A vertex on a parabola that touches a resting triangle:
-
-    >>> import touchstone
-    >>> vertex = [[0.25, 0.25, 1], [0.25, 0.25, -1], [0.25, 0.25, 1]]
-    >>> touchstone.decide_curved("vertex_face", [vertex, [[0, 0, 0]], [[1, 0, 0]], [[0, 1, 0]]]).toi
-    Fraction(1, 2)
-    """
-    if len(curves) != 4:
-        raise ValueError(f"a query has four curves, not {len(curves)}")
-    module = exact_module()
-    parts = [_curve_from(curve) for curve in curves]
-    time, lower, upper = module.decide_curved(kind, parts, separation, norm)
-    numbers = np.dtype(module.decision_layout())
-    result = np.empty((), dtype=[*((n, numbers[n]) for n in numbers.names or ()), ("toi", "O")])
-    result["collides"] = time is not None
-    result["toi_lower"], result["toi_upper"] = lower, upper
-    result["toi"] = _time_from(time)
-    return Decisions(result)
+def _decide_curves(
+    kind: Kind, queries: list[Any], items: Any, separation: float, norm: Norm, callback: Callable[..., None] | None
+) -> list[Any]:
+    """Fill items; return the times of the queries up to Ctrl-C."""
+    times: list[Any] = []
+    try:
+        for i, query in enumerate(queries):
+            time, lower, upper = exact_module().decide_curved(kind, query, separation, norm)
+            items["collides"][i], items["toi_lower"][i], items["toi_upper"][i] = time is not None, lower, upper
+            times.append(time)
+            if callback is not None:
+                callback(i + 1)
+    except KeyboardInterrupt:
+        pass
+    return times
 
 
 @checked
@@ -247,7 +254,7 @@ def prove(
     Parameters
     ----------
     kind, queries, separation, norm, threads, progress
-        As for `certified`.
+        As for `solve`.
     claim : {"time_of_impact", "collision"}, optional
         The claim about queries that collide.
 
@@ -259,7 +266,7 @@ def prove(
     Raises
     ------
     ValueError
-        As for `certified`.
+        As for `solve`.
     RuntimeError
         If a certificate would exceed the limits of the format.
     Interrupted
@@ -401,30 +408,6 @@ def check(
     return CheckReport(**report)
 
 
-class Verdict(IntEnum):
-    """The answer of a method."""
-
-    NO = 0
-    YES = 1
-    UNDECIDED = 2
-    ERROR = 3
-
-
-class Answers(BatchResult):
-    """Answers of a method."""
-
-    @property
-    def collides(self) -> Booleans:
-        """True for yes and for undecided: what is to be taken for a collision."""
-        return np.isin(self.verdict, (Verdict.YES, Verdict.UNDECIDED))[()]
-
-    verdict: npt.NDArray[np.uint8] = column("The verdicts: see `Verdict`.")
-    toi_lower: Doubles = column("Claimed not to be above the time of impact; NaN where the method has none.")
-    toi_upper: Doubles = column("Claimed not to be below the time of impact; NaN where the method has none.")
-    tolerance: Doubles = column("The claimed bound of the distance beyond contact; NaN where the method has none.")
-    checks: npt.NDArray[np.uint32] = column("The number of steps that the method counts.")
-
-
 @dataclass(frozen=True)
 class Method:
     """A method that `solve` knows.
@@ -463,70 +446,3 @@ def methods() -> list[Method]:
     ['certified', 'tight_inclusion']
     """
     return [Method(*fields) for fields in exact_module().methods()]
-
-
-@checked
-def solve(
-    method: str,
-    kind: Kind,
-    queries: npt.ArrayLike,
-    *,
-    separation: float = 0.0,
-    norm: Norm = "l2",
-    tolerance: float = 1e-6,
-    max_checks: int = 1_000_000,
-    t_max: float = 1.0,
-    threads: int = 0,
-    progress: bool | None = None,
-    out: Answers | None = None,
-) -> Answers:
-    """Decide queries with any method by its name, such as the published ones with their errors.
-
-    All queries are asked, also those outside of a method's terms.
-
-    Parameters
-    ----------
-    method : str
-        The name of one of `methods`.
-    kind, queries, separation, norm, t_max, threads, progress, out
-        As for `certified`.
-    tolerance : float, optional
-        Of methods that search down to one.
-    max_checks : int, optional
-        Of iterative methods: the maximum number of steps for a query; 0: no limit.
-
-    Returns
-    -------
-    Answers
-        With the arrays `verdict`, `collides`, `toi_lower`, `toi_upper`, `tolerance` and `checks`.
-
-    Raises
-    ------
-    ValueError
-        As for `certified`; for an unknown method, with the names there are; for a separation, or
-        curves, that it does not support.
-    Interrupted
-        At Ctrl-C, with the results of the first queries.
-
-    Examples
-    --------
-    >>> import numpy as np, touchstone
-    >>> query = np.zeros((8, 3))
-    >>> query[1:4] = query[5:8] = np.eye(3)
-    >>> touchstone.Verdict(touchstone.solve("accd", "vertex_face", query).verdict).name
-    'NO'
-    """
-    module = exact_module()
-    return run_batch(
-        Answers,
-        np.dtype(module.answer_layout()),
-        queries,
-        progress,
-        out,
-        lambda array, items, callback: int(
-            module.solve(
-                method, kind, array, items, separation, norm, tolerance, max_checks, t_max, threads, callback
-            )
-        ),
-        curves=True,
-    )

@@ -11,7 +11,7 @@ With d the distance of the primitives at t=0 and d_min `min_distance`, both in L
   the least double. ``(False, inf)`` if they do not.
 
 There is no tolerance and no limit of iterations: `tolerance` and `max_iterations` are accepted and have no effect.
-For many queries use `touchstone.certified`, which takes them all in one call.
+For many queries use `touchstone.solve`, which takes them all in one call.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._input import Kind, as_doubles, checked
-from .batch import certified, distance
+from .batch import distance, solve
 
 __all__ = ["edge_edge_ccd", "point_edge_ccd", "point_point_ccd", "point_triangle_ccd"]
 
@@ -53,7 +53,7 @@ def _decide(
         return True, 0.0
     wanted = min_distance + (1.0 - conservative_rescaling) * (lower - min_distance)
     near = max(min_distance, min(wanted, float(np.nextafter(lower, 0.0))))
-    answer = certified(kind, query, separation=near, norm="l2", t_max=tmax)
+    answer = solve(kind, query, separation=near, norm="l2", t_max=tmax)
     return bool(answer.collides), float(answer.toi_lower) if answer.collides else np.inf
 
 

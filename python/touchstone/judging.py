@@ -283,7 +283,7 @@ def _table(head: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
     return f"<table><tr>{cells}</tr>{body}</table>"
 
 
-# ---- Certify --------------------------------------------------------------------------------------
+# ---- Judge ----------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, eq=False)
@@ -384,7 +384,7 @@ def _write_data(run: Run, data: Data) -> List[Any]:
 
 
 @checked
-def certify(
+def judge(
     solver: Solver,
     data: Data = None,
     *,
@@ -464,7 +464,7 @@ def certify(
     >>> import touchstone
     >>> def never(kind, query):
     ...     return False
-    >>> judgement = touchstone.certify(never, touchstone.generate("edge_edge", family="hourglass", count=3))
+    >>> judgement = touchstone.judge(never, touchstone.generate("edge_edge", family="hourglass", count=3))
     >>> judgement.queries, judgement.count("false_negatives") == len(judgement.wrong) > 0
     (3, True)
     """
@@ -603,7 +603,7 @@ def fuzz(
     Parameters
     ----------
     solver, batch, name, promise, separation, norm, tolerance, max_checks, query_limit, memory_limit, progress
-        As for `certify`.
+        As for `judge`.
     seconds : float, optional
         The time of the search; 0: no limit.
     queries : int, optional
@@ -694,7 +694,7 @@ def view(
 
     Parameters
     ----------
-    query : array_like as for `certified`, Finding or Queries
+    query : array_like as for `solve`, Finding or Queries
         What to show; of many the first hundred.
     kind : {"vertex_face", "edge_edge"}, optional
         The primitives of an array.
@@ -711,7 +711,7 @@ def view(
     Raises
     ------
     ValueError
-        For an array without a kind, or as for `certified`.
+        For an array without a kind, or as for `solve`.
     FileNotFoundError
         Without the command line tool.
     """

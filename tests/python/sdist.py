@@ -14,7 +14,7 @@ import importlib.metadata, numpy, touchstone
 query = numpy.zeros((8, 3))
 query[0], query[4] = (0.25, 0.25, 1), (0.25, 0.25, -2)
 query[1:4] = query[5:] = (0, 0, 0), (1, 0, 0), (0, 1, 0)
-answer = touchstone.certified("vertex_face", query)
+answer = touchstone.solve("vertex_face", query)
 assert answer.toi_lower <= 1 / 3 <= answer.toi_upper, answer
 print(importlib.metadata.version("touchstone"), touchstone.__version__)
 """

@@ -12,7 +12,7 @@ import touchstone
 
 KINDS = ["vertex_face", "edge_edge"]
 BATCHES = {
-    "certified": touchstone.certified,
+    "certified": touchstone.solve,
     "tight_inclusion": touchstone.tight_inclusion,
     "distance": touchstone.distance,
 }
@@ -64,16 +64,16 @@ def test_the_memory_of_an_array_is_used_without_a_copy(queries):
     assert as_queries(queries)[0] is queries
     assert np.shares_memory(as_queries(queries[3])[0], queries)
     queries.flags.writeable = False
-    assert len(touchstone.certified("edge_edge", queries)) == len(queries)
+    assert len(touchstone.solve("edge_edge", queries)) == len(queries)
 
 
 def test_t_max_is_exact():
     query = np.zeros((8, 3))
     query[1:4] = query[5:8] = [[0, 0, 0], [4, 0, 0], [0, 4, 0]]
     query[0], query[4] = [1, 1, 1], [1, 1, -1]
-    assert touchstone.certified("vertex_face", query, t_max=0.5).collides
-    assert not touchstone.certified("vertex_face", query, t_max=np.nextafter(0.5, 0)).collides
-    assert touchstone.Stage(int(touchstone.certified("vertex_face", query).stage)).name
+    assert touchstone.solve("vertex_face", query, t_max=0.5).collides
+    assert not touchstone.solve("vertex_face", query, t_max=np.nextafter(0.5, 0)).collides
+    assert touchstone.Stage(int(touchstone.solve("vertex_face", query).stage)).name
 
 
 @each_batch
@@ -113,10 +113,10 @@ class TestErrors:
 @pytest.mark.parametrize(
     "solve",
     [
-        touchstone.certified,
+        touchstone.solve,
         touchstone.tight_inclusion,
         touchstone.distance,
-        lambda *queries, **out: touchstone.solve("certified", *queries, **out),
+        lambda *queries, **out: touchstone.solve(*queries, method="certified", **out),
     ],
 )
 def test_out_is_overwritten_and_returned(solve, queries):
@@ -140,17 +140,17 @@ def test_out_is_overwritten_and_returned(solve, queries):
         *((one, {"kind": "face"}, ValueError, "'tetrahedron' or 'plane_triangle', not 'face'") for one in BATCHES.values()),
         *((one, {"norm": "l1"}, ValueError, "norm must be 'linf' or 'l2', not 'l1'") for one in BATCHES.values()),
         *((one, {"threads": -1}, ValueError, "threads must not be negative") for one in BATCHES.values()),
-        (touchstone.certified, {"separation": -1.0}, ValueError, "separation must be a finite number"),
-        (touchstone.certified, {"separation": np.nan}, ValueError, "separation must be a finite number"),
-        (touchstone.certified, {"t_max": 2.0}, ValueError, "t_max"),
-        (touchstone.certified, {"toi_tolerance": -1.0}, ValueError, "toi_tolerance"),
+        (touchstone.solve, {"separation": -1.0}, ValueError, "separation must be a finite number"),
+        (touchstone.solve, {"separation": np.nan}, ValueError, "separation must be a finite number"),
+        (touchstone.solve, {"t_max": 2.0}, ValueError, "t_max"),
+        (touchstone.solve, {"toi_tolerance": -1.0}, ValueError, "toi_tolerance"),
         (touchstone.tight_inclusion, {"tolerance": 0.0}, ValueError, "tolerance"),
         (touchstone.tight_inclusion, {"t_max": -1.0}, ValueError, "t_max"),
         (touchstone.distance, {"t": 1.5}, ValueError, "time|t must"),
-        (touchstone.certified, {"kind": 0}, TypeError, "or 'plane_triangle', not 0 of type int"),
-        (touchstone.certified, {"threads": 1.5}, TypeError, "threads: a whole number is needed, not 1.5 of type float"),
-        (touchstone.certified, {"progress": "no"}, TypeError, "progress: True or False is needed, not 'no' of type str"),
-        (touchstone.certified, {"t_max": None}, TypeError, "t_max: a real number is needed, not None of type NoneType"),
+        (touchstone.solve, {"kind": 0}, TypeError, "or 'plane_triangle', not 0 of type int"),
+        (touchstone.solve, {"threads": 1.5}, TypeError, "threads: a whole number is needed, not 1.5 of type float"),
+        (touchstone.solve, {"progress": "no"}, TypeError, "progress: True or False is needed, not 'no' of type str"),
+        (touchstone.solve, {"t_max": None}, TypeError, "t_max: a real number is needed, not None of type NoneType"),
     ],
 )
 def test_options_that_are_none(solve, options, error, text, count):
@@ -160,14 +160,14 @@ def test_options_that_are_none(solve, options, error, text, count):
 
 
 def test_numbers_of_other_types_are_taken_exactly(queries):
-    plain = touchstone.certified("edge_edge", queries, separation=0.125, t_max=1.0, threads=1)
+    plain = touchstone.solve("edge_edge", queries, separation=0.125, t_max=1.0, threads=1)
     for number in (Fraction(1, 8), Decimal("0.125"), np.float32(0.125), np.array(0.125), np.longdouble(0.125)):
-        other = touchstone.certified(
+        other = touchstone.solve(
             "edge_edge", queries, separation=number, t_max=np.int8(1), threads=np.uint8(1), progress=np.False_
         )
         assert bits(other) == bits(plain)
     free = np.ma.array(queries, mask=False)
-    assert bits(touchstone.certified("edge_edge", free, separation=0.125)) == bits(plain)
+    assert bits(touchstone.solve("edge_edge", free, separation=0.125)) == bits(plain)
 
 
 def step(**options):
@@ -177,14 +177,14 @@ def step(**options):
 @pytest.mark.parametrize(
     "call",
     [
-        lambda **options: touchstone.certified("edge_edge", np.zeros((8, 3)), **options),
+        lambda **options: touchstone.solve("edge_edge", np.zeros((8, 3)), **options),
         lambda **options: touchstone.tight_inclusion("edge_edge", np.zeros((8, 3)), **options),
         lambda **options: touchstone.decide("edge_edge", np.zeros((8, 3)), **options),
-        lambda **options: touchstone.decide_curved("edge_edge", [np.zeros((1, 3))] * 4, **options),
+        lambda **options: touchstone.decide("edge_edge", [touchstone.Curve(np.zeros((1, 3)))] * 4, **options),
         lambda **options: touchstone.prove("edge_edge", np.zeros((8, 3)), **options),
         lambda **options: touchstone.check(b"", **options),
-        lambda **options: touchstone.solve("accd", "edge_edge", np.zeros((8, 3)), **options),
-        lambda **options: touchstone.certify("accd", **options),
+        lambda **options: touchstone.solve("edge_edge", np.zeros((8, 3)), method="accd", **options),
+        lambda **options: touchstone.judge("accd", **options),
         lambda **options: touchstone.fuzz("accd", **options),
         lambda **options: touchstone.generate("edge_edge", **options),
         lambda **options: touchstone.view(np.zeros((8, 3)), "edge_edge", **options),
@@ -211,7 +211,7 @@ def test_options_of_wrong_types_are_named(call):
 
 def test_results_in_tables(queries):
     pandas = pytest.importorskip("pandas")
-    result = touchstone.certified("edge_edge", queries)
+    result = touchstone.solve("edge_edge", queries)
     table = pandas.DataFrame(result.array)
     assert list(table.columns) == ["collides", "stage", "toi_lower", "toi_upper", "u", "v"]
     assert table.collides.sum() == result.collides.sum() > 0

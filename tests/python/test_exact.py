@@ -25,7 +25,7 @@ def test_the_norm_is_l2_in_every_function_by_default():
     query = points[[0, 1, 1, 1, 0, 1, 1, 1]]
     for norm, is_near in [({}, False), ({"norm": "linf"}, True)]:
         near = {"separation": 1.0, **norm}
-        assert touchstone.certified("vertex_face", query, **near).collides == is_near
+        assert touchstone.solve("vertex_face", query, **near).collides == is_near
         assert touchstone.decide("vertex_face", query, **near).collides == is_near
         assert touchstone.Step(points, points, points=[0, 1], **near).is_free() != is_near
         assert (touchstone.distance("vertex_face", query, **norm).upper <= 1.0) == is_near
@@ -36,7 +36,7 @@ def test_the_norm_is_l2_in_every_function_by_default():
 @settings(max_examples=60)
 def test_the_oracle_agrees_and_its_times_are_exact(query, kind, separation, norm):
     truth = touchstone.decide(kind, query, separation=separation, norm=norm)
-    fast = touchstone.certified(kind, query, separation=separation, norm=norm)
+    fast = touchstone.solve(kind, query, separation=separation, norm=norm)
     assert truth.collides == fast.collides
     time = truth.toi
     assert (time is None) == (not truth.collides)
@@ -61,8 +61,9 @@ def test_the_oracle_agrees_and_its_times_are_exact(query, kind, separation, norm
 def test_curves_that_are_lines_in_another_time_have_the_same_contacts(query, kind, separation, norm, weight):
     truth = touchstone.decide(kind, query, separation=separation, norm=norm)
     lines = list(zip(query[:4], query[4:]))
-    slow = touchstone.decide_curved(kind, [[a, a, b] for a, b in lines], separation=separation, norm=norm)
-    late = touchstone.decide_curved(kind, [([a, b], [1, weight]) for a, b in lines], separation=separation, norm=norm)
+    slow = [touchstone.Curve([a, a, b]) for a, b in lines]
+    late = [touchstone.Curve([a, b], [1, weight]) for a, b in lines]
+    slow, late = touchstone.decide(kind, [slow, late], separation=separation, norm=norm)
     assert slow.collides == late.collides == truth.collides
     if truth.collides:  # after t² of the time, and after w t / (1 − t + w t)
         time = float(truth.toi)
@@ -81,8 +82,8 @@ def test_arrays_of_curves_are_decided_like_each_query(kind, degree, numbers):
     truth = touchstone.decide(kind, curves)
     assert 3 < truth.collides.sum() < 57
     with pytest.raises(ValueError, match="from 1 to 8, not 0; repeat the control point"):
-        touchstone.certified(kind, curves[:, :1])
-    fast = touchstone.certified(kind, curves)
+        touchstone.solve(kind, curves[:, :1])
+    fast = touchstone.solve(kind, curves)
     assert (fast.collides == truth.collides).all()
     hits = truth.collides
     assert (fast.toi_lower[hits] <= truth.toi_upper[hits]).all()
@@ -90,18 +91,18 @@ def test_arrays_of_curves_are_decided_like_each_query(kind, degree, numbers):
     assert touchstone.tight_inclusion(kind, curves, tolerance=0.01, max_checks=2000).collides[hits].all()
     assert touchstone.check(touchstone.prove(kind, curves)).accepted == 60
     for i in (0, 1, 2):
-        points = [(c[:, :3], c[:, 3]) if numbers == 4 else c for c in np.moveaxis(curves[i], 1, 0)]
-        assert touchstone.decide_curved(kind, points).toi == touchstone.decide(kind, curves[i]).toi == truth[i].toi
-        assert touchstone.certified(kind, curves[i]).collides == truth.collides[i]
+        points = [touchstone.Curve(c[:, :3], c[:, 3:]) for c in np.moveaxis(curves[i], 1, 0)]
+        assert touchstone.decide(kind, points).toi == touchstone.decide(kind, curves[i]).toi == truth[i].toi
+        assert touchstone.solve(kind, curves[i]).collides == truth.collides[i]
 
 
 def test_lines_are_curves_of_degree_1(queries):
     lines = queries[:100]
-    for call, field in ((touchstone.decide, "toi"), (touchstone.certified, "collides")):
+    for call, field in ((touchstone.decide, "toi"), (touchstone.solve, "collides")):
         assert (getattr(call("edge_edge", lines.reshape(100, 2, 4, 3)), field) == getattr(call("edge_edge", lines), field)).all()
 
 
-@pytest.mark.parametrize("call", [touchstone.certified, touchstone.decide, touchstone.prove, touchstone.tight_inclusion])
+@pytest.mark.parametrize("call", [touchstone.solve, touchstone.decide, touchstone.prove, touchstone.tight_inclusion])
 def test_arrays_of_no_curves_are_refused(call):
     curves = np.ones((3, 3, 4, 4))
     for place, value, text in (
@@ -119,22 +120,24 @@ def test_arrays_of_no_curves_are_refused(call):
 
 
 def test_curves_that_are_none_are_refused():
-    rest = [[[0, 0, 0]], [[1, 0, 0]], [[0, 1, 0]]]
-    for vertex in ([[0, 0]], [], [[0, 0, np.nan]], ([[0, 0, 1]] * 2, [1, 0])):
-        with pytest.raises(ValueError):
-            touchstone.decide_curved("vertex_face", [vertex, *rest])
+    rest = [touchstone.Curve([point]) for point in ([0, 0, 0], [1, 0, 0], [0, 1, 0])]
+    for vertex in ([[[0, 0]]], [[]], [[[0, 0, np.nan]]], ([[0, 0, 1]] * 2, [1, 0])):
+        with pytest.raises(ValueError, match="curve|weight|degree"):
+            touchstone.decide("vertex_face", [[touchstone.Curve(*vertex), *rest]])
     for vertex in ([["0", "0", "1"]], np.array([[0, 0, 2**53 + 1]]), np.ma.array([[0, 0, 1]], mask=[[1, 0, 0]])):
         with pytest.raises(ValueError, match="^curves"):
-            touchstone.decide_curved("vertex_face", [vertex, *rest])
-    with pytest.raises(ValueError, match="four curves, not 3"):
-        touchstone.decide_curved("vertex_face", rest)
+            touchstone.decide("vertex_face", [touchstone.Curve(vertex), *rest])
+    for query, text in ((rest, "four curves, not 3"), ([[[0, 0, 1]], *rest], "list of four touchstone.Curve, not")):
+        for queries in (query, [rest[:1] * 4, query]):
+            with pytest.raises(ValueError, match=text):
+                touchstone.decide("vertex_face", queries)
 
 
 @pytest.mark.parametrize("threads", [1, 3])
 def test_batches_are_their_queries(queries, threads):
     batch = touchstone.decide("edge_edge", queries[:100], threads=threads)
     assert [batch[i].toi for i in range(100)] == [touchstone.decide("edge_edge", q).toi for q in queries[:100]]
-    assert (batch.collides == touchstone.certified("edge_edge", queries[:100]).collides).all()
+    assert (batch.collides == touchstone.solve("edge_edge", queries[:100]).collides).all()
     assert len(touchstone.decide("edge_edge", np.empty((0, 8, 3)))) == 0
 
 
@@ -144,7 +147,7 @@ def test_certificates_are_accepted_and_changed_ones_are_not(queries, kind, claim
     stream = touchstone.prove(kind, queries[:50], separation=0.125, norm="l2", claim=claim)
     report = touchstone.check(stream)
     assert report and report.accepted == 50 and report.rejected == 0
-    collisions = touchstone.certified(kind, queries[:50], separation=0.125, norm="l2").collides.sum()
+    collisions = touchstone.solve(kind, queries[:50], separation=0.125, norm="l2").collides.sum()
     assert report.no_collision == 50 - collisions
     assert touchstone.check(stream, separation=0.125, norm="l2")
     assert not touchstone.check(stream, separation=0.25, norm="l2")
@@ -192,8 +195,8 @@ def test_errors(queries):
     for call, text in [
         (lambda: touchstone.decide("edge_edge", np.stack([queries[0], queries[0] * np.inf])), "query 1: coordinate"),
         (lambda: touchstone.prove("edge_edge", queries[0], claim="no_collision"), "claim must be"),
-        (lambda: touchstone.solve("frobnicate", "edge_edge", queries), "no method is called frobnicate .there are: certified"),
-        (lambda: touchstone.solve("rp", "edge_edge", queries, separation=1.0), "knows no separation but 0"),
+        (lambda: touchstone.solve("edge_edge", queries, method="frobnicate"), "no method is called frobnicate .there are: certified"),
+        (lambda: touchstone.solve("edge_edge", queries, method="rp", separation=1.0), "knows no separation but 0"),
         (lambda: touchstone.check(b"", claim="frobnicate"), ""),
     ]:
         with pytest.raises(ValueError, match=text):
@@ -244,7 +247,7 @@ def test_every_method_answers_as_on_the_command_line(method, tool, datasets, tmp
     for path in datasets:
         kind = "vertex_face" if path.parent.name == "vertex-face" else "edge_edge"
         queries = np.load(path)
-        found = touchstone.solve(method, kind, queries, max_checks=1000)
+        found = touchstone.solve(kind, queries, method=method, max_checks=1000)
         rows, columns = expected.get(str(path), {}), found.to_dict()
         assert len(found) == len(queries) > 0
         assert len(rows) == len(found) or method in WITH_TERMS
@@ -257,11 +260,11 @@ def test_every_method_answers_as_on_the_command_line(method, tool, datasets, tmp
 
 def test_the_named_functions_answer_as_their_methods(queries):
     for kind in KINDS:
-        certified, method = touchstone.certified(kind, queries), touchstone.solve("certified", kind, queries)
+        certified, method = touchstone.solve(kind, queries), touchstone.solve(kind, queries, method="certified")
         assert (certified.collides == method.collides).all()
         assert np.array_equal(certified.toi_lower, method.toi_lower, equal_nan=True)
         assert np.array_equal(certified.toi_upper, method.toi_upper, equal_nan=True)
-        ours, method = touchstone.tight_inclusion(kind, queries), touchstone.solve("tight_inclusion", kind, queries)
+        ours, method = touchstone.tight_inclusion(kind, queries), touchstone.solve(kind, queries, method="tight_inclusion")
         assert (ours.collides == method.collides).all()
         assert np.array_equal(ours.toi, method.toi_lower, equal_nan=True)
         assert (ours.checks == method.checks).all()
@@ -271,8 +274,8 @@ def test_methods_answer_curves_of_their_degrees():
     """A vertex falls on a parabola, touches a triangle at t = 1/2, and rises again."""
     curves = np.array([[[[1, 1, z], [0, 0, 0], [4, 0, 0], [0, 4, 0]] for z in (1, -1, 1)]], float)
     for method in ("certified", "tight_inclusion", "sampling"):
-        assert touchstone.solve(method, "vertex_face", curves).collides.all()
+        assert touchstone.solve("vertex_face", curves, method=method).collides.all()
     with pytest.raises(ValueError, match="cubic does not answer queries on curves of this degree"):
-        touchstone.solve("cubic", "vertex_face", curves)
+        touchstone.solve("vertex_face", curves, method="cubic")
     with pytest.raises(ValueError, match="inversion_cubic does not answer .* about a vertex_face"):
-        touchstone.solve("inversion_cubic", "vertex_face", curves[:, [0, 2]].reshape(1, 8, 3))
+        touchstone.solve("vertex_face", curves[:, [0, 2]].reshape(1, 8, 3), method="inversion_cubic")

@@ -58,7 +58,7 @@ def misbehaving(kind, query):
 
 
 def test_faults_are_placed(eight):
-    judgement = touchstone.certify(misbehaving, eight, query_limit=20.0, threads=1)
+    judgement = touchstone.judge(misbehaving, eight, query_limit=20.0, threads=1)
     faults = {wrong.index: wrong.fault for wrong in judgement.wrong}
     assert faults == {1: "error", 2: "error", 3: "error", 5: "error", 6: "late_toi", 7: "false_negative"}
     reasons = {wrong.index: wrong.answer for wrong in judgement.wrong}
@@ -105,25 +105,25 @@ def test_values_that_are_no_answers(value):
 
 def test_every_form_of_a_right_solver_is_acquitted(eight):
     def single(kind, query, separation, norm):
-        answer = touchstone.certified(kind, query, separation=separation, norm=norm)
+        answer = touchstone.solve(kind, query, separation=separation, norm=norm)
         return bool(answer.collides), float(answer.toi_lower), float(answer.toi_upper)
 
     def batch(kind, queries, **options):
-        answer = touchstone.certified(kind, queries, separation=options["separation"], norm=options["norm"])
+        answer = touchstone.solve(kind, queries, separation=options["separation"], norm=options["norm"])
         return answer.collides, answer.toi_lower
 
     class Callable:
         def __call__(self, kind, query):
-            answer = touchstone.certified(kind, query)
+            answer = touchstone.solve(kind, query)
             return float(answer.toi_lower) if answer.collides else None
 
     data = [eight, *touchstone.generate("edge_edge", count=1)]
     for solver, options in ((single, {}), (batch, {"batch": True}), (Callable(), {}), ("certified", {})):
-        judgement = touchstone.certify(solver, data, promise="exact", query_limit=60.0, **options)
+        judgement = touchstone.judge(solver, data, promise="exact", query_limit=60.0, **options)
         assert judgement.wrong == [] and judgement.queries > 30
-    near = touchstone.certify(single, eight, separation=0.5, norm="l2", promise="exact", query_limit=60.0)
+    near = touchstone.judge(single, eight, separation=0.5, norm="l2", promise="exact", query_limit=60.0)
     assert near.wrong == [] and near.to_dict()["separation"]["min_separation"] == 0.5
-    contact = touchstone.certify("certified", eight, norm="linf")
+    contact = touchstone.judge("certified", eight, norm="linf")
     assert contact.to_dict()["separation"] == {"min_separation": 0.0, "norm": "linf"}
 
 
@@ -141,7 +141,7 @@ def fails_in_its_copy(kind, query):
 
 @pytest.mark.parametrize("solver", [copies_itself, fails_in_its_copy])
 def test_a_copy_of_the_solver_answers_nothing(solver, eight):
-    judgement = touchstone.certify(solver, eight, promise="exact", query_limit=60.0, threads=1)
+    judgement = touchstone.judge(solver, eight, promise="exact", query_limit=60.0, threads=1)
     assert judgement.wrong == [] and judgement.queries == 8
 
 
@@ -150,14 +150,14 @@ def test_bytes_that_are_no_reply_are_an_error(eight):
         os.write(3, bytes(24))
         return True
 
-    judgement = touchstone.certify(writes_to_the_socket, eight, query_limit=60.0, threads=1)
+    judgement = touchstone.judge(writes_to_the_socket, eight, query_limit=60.0, threads=1)
     assert judgement.count("errors") == 8
 
 
 @pytest.mark.parametrize("name", ["certified", "x" * 101])
 def test_a_name_that_misleads_is_refused(name, eight):
     with pytest.raises(ValueError, match="name (is that of a built-in solver|has more than 100 bytes)"):
-        touchstone.certify(copies_itself, eight, name=name)
+        touchstone.judge(copies_itself, eight, name=name)
 
 
 def test_a_batch_is_many_queries_and_a_failure_costs_one():
@@ -169,11 +169,11 @@ def test_a_batch_is_many_queries_and_a_failure_costs_one():
             assert not (queries[0] == unwanted).all(), "unwanted"
         elif (queries == unwanted).all(axis=(1, 2)).any():
             raise ValueError("one of these")
-        return touchstone.certified(kind, queries).collides if len(queries) > 1 else np.zeros(1, bool)
+        return touchstone.solve(kind, queries).collides if len(queries) > 1 else np.zeros(1, bool)
 
     # This solver misses what it is asked alone: the first query, and a batch that fails.
-    collides = touchstone.certified("edge_edge", data.queries).collides
-    judgement = touchstone.certify(batch, data, batch=True, threads=1, query_limit=60.0)
+    collides = touchstone.solve("edge_edge", data.queries).collides
+    judgement = touchstone.judge(batch, data, batch=True, threads=1, query_limit=60.0)
     failed = [one for one in judgement.wrong if "unwanted" in one.answer]
     assert [one.index for one in failed] == [200]
     missed = {one.index for one in judgement.wrong if one.fault == "false_negative"}
@@ -204,12 +204,12 @@ def test_solvers_of_inversions_are_judged(kind):
         return bool(np.linalg.det(edges).min() <= 0)
 
     def right(asked, query):
-        answer = touchstone.certified(asked, query)
+        answer = touchstone.solve(asked, query)
         return bool(answer.collides), float(answer.toi_lower)
 
-    convicted = touchstone.certify(of_ends, kind=kind, count=8)
+    convicted = touchstone.judge(of_ends, kind=kind, count=8)
     assert convicted.count("false_negatives") > 8 and {wrong.kind for wrong in convicted.wrong} == {kind}
-    assert not touchstone.certify(right, touchstone.generate(kind, count=8), promise="exact").wrong
+    assert not touchstone.judge(right, touchstone.generate(kind, count=8), promise="exact").wrong
     found = touchstone.fuzz(of_ends, kind=kind, queries=2000, only=["false_negative"], findings=1)
     assert found.findings[0].kind == kind and found.findings[0].certificate
     assert touchstone.decide(kind, found.findings[0].query).collides
@@ -269,7 +269,7 @@ def test_data_survive_a_file_and_are_judged(name, ending, tmp_path, tool):
     assert again.queries.tobytes() == written.queries.tobytes()
     assert again.collides is None if ending == "npy" else (again.collides == written.collides).all()
     for data in (written, path, [written, curves(3)]):
-        judgement = touchstone.certify("certified", data, promise="exact")
+        judgement = touchstone.judge("certified", data, promise="exact")
         assert judgement.wrong == [] and judgement.queries == len(written) + (2 if isinstance(data, list) else 0)
         assert judgement.method["queries"] == judgement.queries
     assert touchstone.view(written).page.count("<script") > 0
@@ -324,7 +324,7 @@ def test_every_family_is_generated_with_its_truth(kind, options):
     assert len(known) > 3 and all(one.name.startswith("separation") if options else one.name in touchstone.families() for one in known)
     assert sum(len(one.toi) for one in known) > len(known)
     for one in known:
-        answers = touchstone.certified(kind, one.queries, **options)
+        answers = touchstone.solve(kind, one.queries, **options)
         assert (one.collides == answers.collides).all() and all(one.collides[i] for i in one.toi)
         for i, time in one.toi.items():
             assert answers.toi_lower[i] <= time <= answers.toi_upper[i]
@@ -381,10 +381,10 @@ def test_errors(eight, tmp_path):
         (lambda: touchstone.read(tmp_path / "x.npy"), ValueError, "path does not say .*; give it by kind="),
         (lambda: touchstone.read(tmp_path / "none_ee.npy"), FileNotFoundError, ""),
         (lambda: touchstone.write(tmp_path / "edge-edge.csv", eight), ValueError, "says another kind"),
-        (lambda: touchstone.certify("frobnicate", eight), ValueError, "no method is called frobnicate"),
-        (lambda: touchstone.certify("certified", []), ValueError, "there are no queries"),
+        (lambda: touchstone.judge("frobnicate", eight), ValueError, "no method is called frobnicate"),
+        (lambda: touchstone.judge("certified", []), ValueError, "there are no queries"),
         (lambda: touchstone.generate("edge_edge", family="frobnicate"), ValueError, "unknown|family|no family"),
-        (lambda: touchstone.certify(lambda kind, query: lock.locked(), eight), ValueError, "cannot be sent to another process"),
+        (lambda: touchstone.judge(lambda kind, query: lock.locked(), eight), ValueError, "cannot be sent to another process"),
         (lambda: touchstone.view(eight.queries), ValueError, "name the kind"),
     ]:
         with pytest.raises(error, match=text):
@@ -403,7 +403,7 @@ def test_without_the_tool_only_judging_is_missing(monkeypatch, eight):
     monkeypatch.setattr("touchstone._tool.FOLDER", pathlib.Path("/nowhere"))
     monkeypatch.setenv("PATH", "/nowhere")
     with pytest.raises(FileNotFoundError, match="./run python in the sources"):
-        touchstone.certify("certified", eight)
+        touchstone.judge("certified", eight)
     hourglass = touchstone.generate("edge_edge", family="hourglass", count=3)[0]
     assert hourglass.name in touchstone.families() and len(hourglass) == 3 and hourglass.collides is not None
     triangle = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])

@@ -64,6 +64,18 @@ def test_all_names_exist():
     assert sorted(touchstone.__all__) == touchstone.__all__
 
 
+def test_former_names_are_refused_with_the_new_ones():
+    for name, new in (("certified", "solve"), ("certify", "judge"), ("decide_curved", "decide"), ("frobnicate", None)):
+        text = rf"^touchstone\.{name} has become touchstone\.{new}\(" if new else "has no attribute 'frobnicate'"
+        with pytest.raises(AttributeError, match=text):
+            getattr(touchstone, name)
+    with pytest.raises(TypeError, match=r"has become solve\(kind, queries, method="):
+        touchstone.solve("accd", "edge_edge", [])
+    for wrong, text in (({"tolerance": 0.5}, "has toi_tolerance"), ({"method": "accd", "toi_tolerance": 0.5}, "has tolerance")):
+        with pytest.raises(ValueError, match=text):
+            touchstone.solve("edge_edge", [], **wrong)
+
+
 def test_the_fast_part_needs_neither_gmp_nor_cgal():
     module = importlib.import_module("touchstone._fast")
     libraries = subprocess.run(["ldd", module.__file__], check=True, capture_output=True, text=True).stdout
@@ -98,7 +110,7 @@ def test_stubs_say_what_the_modules_have(stub, tmp_path):
 
 def test_a_user_of_the_package_is_checked(tmp_path):
     user = tmp_path / "user.py"
-    user.write_text("import touchstone\nanswer: str = touchstone.certified('edge_edge', []).collides\n")
+    user.write_text("import touchstone\nanswer: str = touchstone.solve('edge_edge', []).collides\n")
     command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", tmp_path / "cache", user]
     done = subprocess.run(command, capture_output=True, text=True, cwd=package_folder().parent)
     assert "Incompatible types in assignment" in done.stdout and "Found 1 error" in done.stdout

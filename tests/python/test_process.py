@@ -28,7 +28,7 @@ def falling() -> dict[str, np.ndarray]:
 @pytest.mark.parametrize("name", ["certified", "tight_inclusion", "distance", "Step", "holds_the_lock"])
 def test_threads_run_at_the_same_time(name, queries, falling, only_released):
     call = {
-        "certified": lambda: touchstone.certified("edge_edge", queries, threads=1, progress=False),
+        "certified": lambda: touchstone.solve("edge_edge", queries, threads=1, progress=False),
         "tight_inclusion": lambda: touchstone.tight_inclusion("edge_edge", queries, threads=1, progress=False),
         "distance": lambda: touchstone.distance("edge_edge", queries, threads=1, progress=False),
         "Step": lambda: touchstone.Step(**falling, threads=1, progress=False).is_free(),
@@ -128,7 +128,7 @@ def test_a_handler_of_signals_may_raise_what_it_likes(queries, only_released):
     try:
         with pytest.raises(Stop):
             signal.raise_signal(signal.SIGINT)
-        interrupt_once_inside(lambda: touchstone.certified("edge_edge", many, threads=1, progress=False), Stop)
+        interrupt_once_inside(lambda: touchstone.solve("edge_edge", many, threads=1, progress=False), Stop)
     finally:
         signal.signal(signal.SIGINT, before)
 
@@ -147,12 +147,12 @@ def in_child(work, seconds: int = 120) -> int:
 
 
 def test_a_fork_after_use_works(queries, falling):
-    expected = touchstone.certified("edge_edge", queries).collides.sum()
+    expected = touchstone.solve("edge_edge", queries).collides.sum()
     step = touchstone.Step(**falling)
     collisions, proof = step.collisions(), step.prove()
 
     def work() -> None:
-        assert touchstone.certified("edge_edge", queries).collides.sum() == expected
+        assert touchstone.solve("edge_edge", queries).collides.sum() == expected
         assert (step.collisions() == collisions).all()
         again = touchstone.Step(**falling)
         assert (again.collisions() == collisions).all()
@@ -181,13 +181,13 @@ def test_nothing_leaks(leaked_bytes, queries):
         for i in range(count):
             query = queries[i % len(queries)]
             leaked.append(bytes(leaked_bytes) if leaked_bytes else None)
-            touchstone.certified("edge_edge", query)
+            touchstone.solve("edge_edge", query)
             touchstone.tight_inclusion("vertex_face", query, max_checks=10)
             touchstone.distance("vertex_face", query)
             if i % 100 == 0:
                 touchstone.Step(**small).collisions()
                 with pytest.raises(ValueError):
-                    touchstone.certified("edge_edge", query * np.nan)
+                    touchstone.solve("edge_edge", query * np.nan)
 
     calls(2000)
     before = resident_bytes()
@@ -204,7 +204,7 @@ assert ctypes.CDLL("libm.so.6").fesetround(int(sys.argv[1]) << shift) == 0
 import touchstone
 queries = (np.arange(24 * 50).reshape(-1, 8, 3) * 7919 % 13 - 6) / 2.0
 for kind in ("edge_edge", "vertex_face"):
-    for result in (touchstone.certified(kind, queries), touchstone.distance(kind, queries, t=0.5)):
+    for result in (touchstone.solve(kind, queries), touchstone.distance(kind, queries, t=0.5)):
         print(result, result.array.tolist())
     print(touchstone.decide(kind, queries).collides.tolist())
 step = touchstone.Step(queries[:, :3].reshape(-1, 3), queries[:, 3:6].reshape(-1, 3), faces=np.arange(150).reshape(-1, 3))
