@@ -237,7 +237,7 @@ TEST(SolverProcess, AnswersQueriesOfAllShapes) {
   for (const QueryShape shape : {QueryShape{Kind::edge_edge, greatest_degree, true},
                                  {Kind::vertex_face, 2, false},
                                  {Kind::edge_edge, 1, true},
-                                 {Kind::vertex_face, 0, false},
+                                 {Kind::vertex_face, 3, false},
                                  {Kind::vertex_face, 1, false}}) {
     std::vector<double> numbers(count * shape.numbers_of_query());
     for (std::size_t i = 0; i < count; ++i) {

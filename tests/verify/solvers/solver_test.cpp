@@ -198,7 +198,7 @@ TEST(Solver, AsksNoShapeOutsideTheTerms) {
 TEST(Solver, RecordedAnswersAreLookedUpForAllShapesInDoubles) {
   const RecordedAnswers none;
   const std::uint64_t index = 0;
-  for (const QueryShape& shape : {QueryShape{vf, 0}, {vf, 1}, {vf, 2, true}, {vf, 8}}) {
+  for (const QueryShape& shape : {QueryShape{vf, 3}, {vf, 1}, {vf, 2, true}, {vf, 8}}) {
     const std::vector<double> numbers(shape.numbers_of_query());
     const SolveRequest request{.queries = Queries(shape, numbers), .indices = {&index, 1}};
     for (const bool is_float : {false, true}) {
