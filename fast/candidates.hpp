@@ -39,8 +39,8 @@ struct Candidates {
 /// std::length_error if there are more than 2^31−1 vertices.
 void require_finite(const MovingVertices& vertices);
 
-/// \throws std::out_of_range naming the first edge, face, tetrahedron or codimensional point with an index that
-/// is no vertex's; std::length_error if there are more than 2^31−1.
+/// \throws std::out_of_range naming the first edge, face, tetrahedron or codimensional point with
+/// an index that is no vertex's; std::length_error if there are more than 2^31−1.
 void require_in_range(const MovingVertices& vertices, std::span<const Edge> edges);
 void require_in_range(const MovingVertices& vertices, std::span<const Face> faces);
 void require_in_range(const MovingVertices& vertices,

@@ -72,8 +72,8 @@ std::vector<std::int32_t> different_edges(std::span<const Edge> edges,
     return numbers;
   }
   std::ranges::stable_sort(numbers, {}, key);
-  const auto rest = std::ranges::unique(numbers, {}, key);
-  numbers.erase(rest.begin(), rest.end());
+  const auto is_equal = [&](std::int32_t a, std::int32_t b) { return key(a) == key(b); };
+  numbers.erase(std::unique(numbers.begin(), numbers.end(), is_equal), numbers.end());
   std::ranges::sort(numbers);
   return numbers;
 }

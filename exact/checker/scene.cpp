@@ -179,7 +179,7 @@ std::string vertices_text(const Scene& scene, std::size_t taking_part) {
 std::string rules_text(std::vector<Two> apart, std::size_t left_out) {
   for (auto& [one, other] : apart) std::tie(one, other) = std::minmax({one, other});
   std::ranges::sort(apart);
-  apart.erase(std::ranges::unique(apart).begin(), apart.end());
+  apart.erase(std::unique(apart.begin(), apart.end()), apart.end());
   const auto selves = static_cast<std::size_t>(
       std::ranges::count_if(apart, [](const Two& two) { return two[0] == two[1]; }));
   const std::size_t pairs = apart.size() - selves;

@@ -304,21 +304,21 @@ class MeshProver : private ProofWriter {
     try {
       for (const fast::Intersection& one : found) intersecting_.push_back(pair_of(one));
       std::ranges::sort(intersecting_);
-      proof_.claim = words(is_welded_ ? "welded_intersections" : "intersections", found.size());
-      proof_.rules = checker::rules_text(scene_.apart,
-                                         scene_.vertices.size() - elements_.vertices_of_elements());
-      proof_.contact = "intersect";
+      proof().claim = words(is_welded_ ? "welded_intersections" : "intersections", found.size());
+      proof().rules = checker::rules_text(
+          scene_.apart, scene_.vertices.size() - elements_.vertices_of_elements());
+      proof().contact = "intersect";
       const std::vector<fast::IndexPair> apart = pairs_to_argue();
       lines_ = intersecting_.size() + apart.size();
       require_few_arguments(lines_);
-      proof_.directions = apart.size();
+      proof().directions = apart.size();
       write_scene();
       write_lines(intersecting_, [&](const fast::IndexPair& pair) { return common_point(pair); });
       put("separations\n");
       write_lines(apart, [&](const fast::IndexPair& pair) { return argument(pair); });
       require_few_comparisons();
     } catch (const CertificateLimitError& error) {
-      proof_.failure = error.what();
+      proof().failure = error.what();
     }
     return finish(mesh_certificates_header(), mesh_certificates_closing_line(1));
   }
@@ -330,7 +330,7 @@ class MeshProver : private ProofWriter {
     write_line(text, "vertices", scene_.vertices.size());
     for (const checker::Motion& vertex : scene_.vertices) write_doubles(text, vertex.start);
     listed_.write(text);
-    write_line(text, "claim", proof_.claim);
+    write_line(text, "claim", proof().claim);
     put(text);
   }
 
@@ -377,7 +377,7 @@ class MeshProver : private ProofWriter {
   template <class Line>
   void write_lines(std::span<const fast::IndexPair> pairs, const Line& line) {
     static constexpr std::size_t block = 4'096;
-    for (std::size_t done = 0; done < pairs.size() && proof_.is_complete(); done += block) {
+    for (std::size_t done = 0; done < pairs.size() && proof().is_complete(); done += block) {
       const auto some = pairs.subspan(done, std::min(block, pairs.size() - done));
       std::vector<std::string> lines(some.size());
       fast::with_threads(options().max_threads, [&] {
@@ -386,13 +386,13 @@ class MeshProver : private ProofWriter {
           if (!is_stopped()) lines[i] = line(some[i]);
         });
       });
-      proof_.interrupted = is_stopped();
+      proof().interrupted = is_stopped();
       const auto missing = std::ranges::find(lines, "");
-      if (!proof_.interrupted && missing != lines.end()) {
+      if (!proof().interrupted && missing != lines.end()) {
         const auto& [a, b] = some[static_cast<std::size_t>(missing - lines.begin())];
-        proof_.failure = "no argument for the elements " + words(a, "and", b);
+        proof().failure = "no argument for the elements " + words(a, "and", b);
       }
-      if (!proof_.is_complete()) return;
+      if (!proof().is_complete()) return;
       std::string text;
       for (const std::string& one : lines) text += one;
       put(text);
@@ -403,7 +403,7 @@ class MeshProver : private ProofWriter {
   /// \throws CertificateLimitError if the checker would compare too many boxes for this text.
   void require_few_comparisons() const {
     const auto most = checker::Options{}.max_comparisons_per_byte;
-    if (comparisons_ / most <= static_cast<std::int64_t>(proof_.bytes)) return;
+    if (comparisons_ / most <= static_cast<std::int64_t>(proof().bytes)) return;
     throw CertificateLimitError("the checker compares at most " + words(most, "boxes") +
                                 " for each byte, and would compare " + words(comparisons_));
   }

@@ -140,7 +140,7 @@ class StepProver : private ProofWriter {
         write_volumes(Kind::plane_triangle, scene_.mesh.plane_triangles.size());
       }
     } catch (const CertificateLimitError& error) {
-      proof_.failure = error.what();
+      proof().failure = error.what();
     }
     return finish(step_certificates_header(), step_certificates_closing_line(1));
   }
@@ -150,8 +150,8 @@ class StepProver : private ProofWriter {
 
   void write_scene() {
     const fast::MovingVertices& vertices = step_.vertices();
-    proof_.rules = checker::rules_text(scene_.rules.apart,
-                                       vertices.size() - scene_.vertices_of(vertices.size()));
+    proof().rules = checker::rules_text(scene_.rules.apart,
+                                        vertices.size() - scene_.vertices_of(vertices.size()));
     std::string text;
     write_line(text, "step", label_text(options().label));
     write_line(text, "vertices", vertices.size());
@@ -185,8 +185,8 @@ class StepProver : private ProofWriter {
                         .name = first->name,
                         .proof = *first->certificate.contact};
     }
-    proof_.claim = to_text(claim);
-    proof_.contact = checker::contact_text(
+    proof().claim = to_text(claim);
+    proof().contact = checker::contact_text(
         {.distance = claim.separation.distance, .is_l2 = claim.separation.norm == Norm::l2},
         !scene_.rules.radii.empty() || !scene_.rules.separations.empty());
     std::string text;
@@ -208,7 +208,7 @@ class StepProver : private ProofWriter {
           pairs.begin());
       for (; done < end; done = std::min(done + block, end)) {
         write_block(pairs.subspan(done, std::min(block, end - done)));
-        if (!proof_.is_complete()) return;
+        if (!proof().is_complete()) return;
         report(std::min(done + block, end), pairs.size());
       }
     }
@@ -281,19 +281,19 @@ class StepProver : private ProofWriter {
         }
       });
     });
-    proof_.interrupted = is_stopped();
+    proof().interrupted = is_stopped();
     for (const PairArguments& some : parts) {
-      if (proof_.failure.empty()) proof_.failure = some.failure;
-      if (!proof_.is_complete()) return;
+      if (proof().failure.empty()) proof().failure = some.failure;
+      if (!proof().is_complete()) return;
       put(some.text);
-      proof_.directions += some.directions;
-      proof_.certificates += some.certificates;
+      proof().directions += some.directions;
+      proof().certificates += some.certificates;
     }
   }
 
   /// Writes the subintervals of the elements of a kind that need several.
   void write_volumes(Kind kind, std::size_t count) {
-    if (count == 0 || !proof_.is_complete()) return;
+    if (count == 0 || !proof().is_complete()) return;
     put(words(keyword_of(kind)) + '\n');
     write_parts(count, [&](std::size_t number, PairArguments& arguments) {
       argue_volume(kind, number, arguments);

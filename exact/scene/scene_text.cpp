@@ -46,7 +46,7 @@ ListedScene::ListedScene(fast::Mesh given, fast::CollisionGroups given_rules,
     all.push_back({a, b, b});
   }
   std::ranges::sort(mesh.points);
-  mesh.points.erase(std::ranges::unique(mesh.points).begin(), mesh.points.end());
+  mesh.points.erase(std::unique(mesh.points.begin(), mesh.points.end()), mesh.points.end());
   mesh.edges = fast::edges_of(all);
   std::ranges::set_difference(mesh.edges, fast::edges_of(mesh.faces),
                               std::back_inserter(bare_edges),

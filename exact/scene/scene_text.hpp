@@ -134,11 +134,12 @@ class ProofWriter {
   void report(std::size_t done, std::size_t all) const;
   /// The proof, between these lines if it is complete and nobody has read it.
   [[nodiscard]] SceneProof finish(std::string_view header, std::string_view closing_line);
-
-  SceneProof proof_;
+  [[nodiscard]] SceneProof& proof() { return proof_; }
+  [[nodiscard]] const SceneProof& proof() const { return proof_; }
 
  private:
   const SceneProofOptions& options_;
+  SceneProof proof_;
 };
 
 /// \throws CertificateLimitError if so many pairs need an argument.

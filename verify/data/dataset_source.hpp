@@ -37,7 +37,8 @@ class DatasetSource : public QuerySource {
     io::FilePosition label_position;
   };
 
-  /// \throws DatasetError if the kind is unknown, or a companion file or the separation's cannot be read.
+  /// \throws DatasetError if the kind is unknown, or a companion file or the separation's cannot be
+  /// read.
   DatasetSource(const std::filesystem::path& path, DatasetOptions options);
 
   /// Ends the stream with this error, with and without keep_going: for a fault after which the

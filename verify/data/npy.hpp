@@ -72,7 +72,8 @@ using ReadBytes = std::function<std::size_t(std::span<char>)>;
 class NpyArray {
  public:
   /// A .npy file.
-  /// \throws io::DatasetError if it cannot be read, is no array, or its size does not fit its shape.
+  /// \throws io::DatasetError if it cannot be read, is no array, or its size does not fit its
+  /// shape.
   explicit NpyArray(const std::filesystem::path& path);
   /// An array of an archive, which is read once as a whole for its checksum, before it is used.
   /// \throws io::DatasetError if there is none, its checksum is wrong, or as above.
@@ -167,7 +168,8 @@ class NpyWriter {
 /// An archive that is open for reading.
 class Npz {
  public:
-  /// \throws io::DatasetError if it cannot be opened, bytes follow it, or two members have one name.
+  /// \throws io::DatasetError if it cannot be opened, bytes follow it, or two members have one
+  /// name.
   explicit Npz(std::filesystem::path path);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }

@@ -28,8 +28,8 @@ class GroundTruthCache {
   /// that are not known yet are decided. Once *stop is true (it may be null), no more are decided,
   /// and only the truths before the first unknown one are returned.
   /// \param on_progress called now and then with the fraction that is done, from this thread; may be null
-  /// \throws std::domain_error if a coordinate is not finite; std::invalid_argument if the separation
-  /// is not valid; std::out_of_range for a position beyond the group.
+  /// \throws std::domain_error if a coordinate is not finite; std::invalid_argument if the
+  /// separation is not valid; std::out_of_range for a position beyond the group.
   [[nodiscard]] std::vector<GroundTruth> of(
       const Separation& separation, std::span<const std::size_t> positions,
       const std::atomic<bool>* stop = nullptr,

@@ -17,8 +17,8 @@
 namespace touchstone::verify::mesh {
 
 /// The groups that a text file names: the group's name of each vertex, a line each.
-/// \throws DatasetError if the file cannot be read, has a blank line before its end, or other than `vertices`
-/// lines.
+/// \throws DatasetError if the file cannot be read, has a blank line before its end, or other than
+/// `vertices` lines.
 [[nodiscard]] Groups read_groups(const std::filesystem::path& path, std::size_t vertices);
 
 /// The radius of each group from a text file: a line NAME,RADIUS for each group that has one.

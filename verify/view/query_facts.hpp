@@ -22,8 +22,8 @@ namespace touchstone::verify::view {
 /// it are judged by verdict and times.
 /// \param asked answers that were given now, to be shown behind the recorded ones
 /// \pre answers, of either sort, only to a query in one shape
-/// \throws std::domain_error if a number is NaN or infinite; std::invalid_argument if a curve or the
-/// separation is not valid, or the text not a certificate.
+/// \throws std::domain_error if a number is NaN or infinite; std::invalid_argument if a curve or
+/// the separation is not valid, or the text not a certificate.
 [[nodiscard]] nlohmann::json query_facts(const ViewedQuery& viewed,
                                          std::span<const judge::GivenAnswer> asked);
 

@@ -168,7 +168,7 @@ struct Point {
     static_assert(Derived::SizeAtCompileTime == 3 || Derived::SizeAtCompileTime < 0,
                   "a point has three coordinates");
     if (vector.size() != 3) throw std::invalid_argument("a point must have three coordinates");
-    const auto values = vector.eval();
+    const auto& values = vector.eval();
     for (int i = 0; i < 3; ++i) coordinates.at(std::size_t(i)) = to_double(values.coeff(i));
   }
   Point(const double* x) : coordinates{x[0], x[1], x[2]} {}  // NOLINT(google-explicit-constructor)

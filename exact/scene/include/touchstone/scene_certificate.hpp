@@ -120,8 +120,8 @@ struct SceneProof {
 /// Proves which elements of a mesh at rest intersect.
 /// \param vertices the mesh is that at t=0
 /// \param mesh, search as of fast::intersections; all pairs are asked for, without their places
-/// \throws std::invalid_argument for a rule `can_collide`; as fast::intersections; the exceptions of
-/// on_text.
+/// \throws std::invalid_argument for a rule `can_collide`; as fast::intersections; the exceptions
+/// of on_text.
 [[nodiscard]] SceneProof prove_mesh(const fast::MovingVertices& vertices, const fast::Mesh& mesh,
                                     const fast::IntersectionOptions& search = {},
                                     const SceneProofOptions& options = {});
