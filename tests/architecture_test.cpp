@@ -72,7 +72,7 @@ constexpr std::string_view layer_lines = R"(
 // The adapters as plugins of the tool.
   adapters/by_the_call/: adapters/ verify/plugin.h
 // Who includes a header in C needs no other header of ours.
-  adapters/touchstone.h: stddef.h stdint.h
+  adapters/touchstone.h: stddef.h stdint.h string.h
   verify/plugin.h: stdint.h
 // The modules, packages, and POSIX.
   REST: exact/ exact/checker/ exact/scene/ filters/ filters/derivation/ fast/ verify/plugin.h CLI/ Eigen/ fmt/ gmp.h gmpxx.h nlohmann/ oneapi/tbb/ zip.h zstd.h dlfcn.h fcntl.h poll.h sys/ time.h unistd.h
