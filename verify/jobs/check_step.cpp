@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <numeric>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -18,6 +21,16 @@ PairCounts count_candidates(const fast::Step& step) {
   PairCounts result{};
   std::ranges::copy(counts, result.begin());
   return result;
+}
+
+void require_few(const PairCounts& candidates, std::uint64_t most) {
+  const std::uint64_t count =
+      std::accumulate(candidates.begin(), candidates.end(), std::uint64_t{0});
+  if (count <= most) return;
+  throw std::runtime_error(std::to_string(count) + " pairs come near each other, more than " +
+                           std::to_string(most) +
+                           ", too many to list all that collide: --earliest names the first, "
+                           "--free says whether there are any");
 }
 
 /// The earliest impact of all pairs that collide and elements that invert, as from
@@ -98,6 +111,9 @@ StepCheck check_step(std::optional<fast::Step>& step, const mesh::Mesh& mesh,
       check.candidates = count_candidates(part ? *part : *step);
     }
   });
+  if (options.question == StepQuestion::all) {
+    require_few(*check.candidates, options.most_candidates);
+  }
   check.narrow_phase = work_time_of([&] { answer(part ? *part : *step, options.question, check); });
   if (options.find_contacts && check.earliest) {
     check.contacts = fast::contacts_of(

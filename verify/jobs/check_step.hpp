@@ -36,6 +36,9 @@ struct StepCheckOptions {
   std::optional<double> alpha = std::nullopt;
   /// Count the candidates also if the question is not `all`: this takes longer than the answer.
   bool count_candidates = false;
+  /// The greatest number of candidates of which all that collide are listed: each of these takes
+  /// memory.
+  std::uint64_t most_candidates = std::uint64_t{1} << 27U;
   /// Find the places and normals of the collisions.
   bool find_contacts = false;
   /// Its on_text, if set, receives a certificate of the step.
@@ -81,7 +84,8 @@ struct StepCheck {
 /// \param step Empty, or an earlier step of the mesh with the same options, which then saves making
 /// the groups of primitives; set to this step.
 /// \param before, after the vertices at the ends of the step: as many as the mesh has
-/// \throws std::invalid_argument for options out of range.
+/// \throws std::invalid_argument for options out of range; std::runtime_error if all that collide
+/// are asked for, of too many candidates.
 [[nodiscard]] StepCheck check_step(std::optional<fast::Step>& step, const mesh::Mesh& mesh,
                                    const mesh::Vertices& before, const mesh::Vertices& after,
                                    const StepCheckOptions& options);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -149,6 +151,20 @@ TEST(CheckStep, GivesTheSameAfterOtherStepsOfTheMesh) {
       EXPECT_EQ(later.free_alpha, fresh.free_alpha);
     }
   }
+}
+
+TEST(CheckStep, ListsWhatCollidesOfAFewCandidatesAlone) {
+  const Frames frames(12);
+  const auto check = [&](StepQuestion question, std::uint64_t most) {
+    std::optional<fast::Step> step;
+    return check_step(step, frames.mesh, frames.mesh.vertices, frames.after,
+                      {.question = question, .most_candidates = most});
+  };
+  EXPECT_FALSE(check(StepQuestion::earliest, 0).is_free);
+  const PairCounts candidates = *check(StepQuestion::all, 1'000'000).candidates;
+  const auto count = std::accumulate(candidates.begin(), candidates.end(), std::uint64_t{0});
+  EXPECT_FALSE(check(StepQuestion::all, count).is_free);
+  EXPECT_THROW((void)check(StepQuestion::all, count - 1), std::runtime_error);
 }
 
 }  // namespace
