@@ -266,7 +266,9 @@ def test_data_survive_a_file_and_are_judged(name, ending, tmp_path, tool):
     touchstone.write(path, written)
     again = touchstone.read(path)
     assert again.kind == written.kind and again.queries.shape == written.queries.shape
-    assert again.queries.tobytes() == written.queries.tobytes()
+    # A fraction has no sign of zero.
+    expected = written.queries + 0.0 if ending == "csv" else written.queries
+    assert again.queries.tobytes() == expected.tobytes()
     assert again.collides is None if ending == "npy" else (again.collides == written.collides).all()
     for data in (written, path, [written, curves(3)]):
         judgement = touchstone.judge("certified", data, promise="exact")
