@@ -88,15 +88,22 @@ T& required(T* pointer, const char* name) {
   return *pointer;
 }
 
-/// Converts `count` · `size` numbers to elements.
+/// The numbers of `count` elements; null if there are none.
 template <class Element, class Number>
-std::vector<Element> copied(const Number* numbers, std::size_t count, const char* name) {
-  if (count == 0) return {};
+const Number* numbers_of(const Number* numbers, std::size_t count, const char* name) {
+  if (count == 0) return nullptr;
   if (count > std::numeric_limits<std::size_t>::max() / sizeof(Element)) {
     throw std::length_error(std::string(name) + ": too many");
   }
+  return &required(numbers, name);
+}
+
+/// Converts numbers to `count` elements.
+template <class Element, class Number>
+std::vector<Element> copied(const Number* numbers, std::size_t count, const char* name) {
+  const Number* const first = numbers_of<Element>(numbers, count, name);
   std::vector<Element> result(count);
-  std::memcpy(result.data(), &required(numbers, name), count * sizeof(Element));
+  if (count != 0) std::memcpy(result.data(), first, count * sizeof(Element));
   return result;
 }
 
@@ -241,11 +248,8 @@ std::function<bool(std::int32_t, std::int32_t)> rule_of(const TouchstoneMesh& me
 
 fast::Step step_of(const TouchstoneMesh& mesh, const TouchstoneOptions& options) {
   const auto coordinates = [&mesh](const double* numbers, const char* name) {
-    if (mesh.vertices == 0) return std::span<const double>();
-    if (mesh.vertices > std::numeric_limits<std::size_t>::max() / (3 * sizeof(double))) {
-      throw std::length_error(std::string(name) + ": too many");
-    }
-    return std::span(&required(numbers, name), 3 * mesh.vertices);
+    return std::span(numbers_of<std::array<double, 3>>(numbers, mesh.vertices, name),
+                     3 * mesh.vertices);
   };
   fast::Mesh elements = elements_of(mesh);
   return {coordinates(mesh.before, "before"), coordinates(mesh.after, "after"), std::move(elements),

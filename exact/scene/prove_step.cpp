@@ -16,6 +16,7 @@
 #include "exact/scene/step_places.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
+#include "fast/step/codimensional.hpp"
 #include "fast/step/scene.hpp"
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
@@ -150,8 +151,9 @@ class StepProver : private ProofWriter {
 
   void write_scene() {
     const fast::MovingVertices& vertices = step_.vertices();
-    proof().rules = checker::rules_text(scene_.rules.apart,
-                                        vertices.size() - scene_.vertices_of(vertices.size()));
+    proof().rules = checker::rules_text(
+        scene_.rules.apart,
+        vertices.size() - fast::vertices_of(vertices.size(), scene_.mesh).size());
     std::string text;
     write_line(text, "step", label_text(options().label));
     write_line(text, "vertices", vertices.size());

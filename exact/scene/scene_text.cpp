@@ -65,15 +65,6 @@ void ListedScene::require_within_limit(std::size_t vertices) const {
                               words(items, "items, more than", scene_item_limit));
 }
 
-std::size_t ListedScene::vertices_of(std::size_t vertices) const {
-  std::vector<bool> is_named(vertices);
-  const auto name = [&](std::int32_t v) { is_named[static_cast<std::size_t>(v)] = true; };
-  for (const fast::Face& face : mesh.faces) std::ranges::for_each(face, name);
-  for (const fast::Edge& edge : bare_edges) std::ranges::for_each(edge, name);
-  std::ranges::for_each(mesh.points, name);
-  return static_cast<std::size_t>(std::ranges::count(is_named, true));
-}
-
 void ListedScene::write(std::string& text) const {
   write_list(text, "faces", mesh.faces);
   write_list(text, "edges", bare_edges);

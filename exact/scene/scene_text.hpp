@@ -79,9 +79,6 @@ struct ListedScene {
 
   /// \throws CertificateLimitError if the lists, with this many vertices, have too many items.
   void require_within_limit(std::size_t vertices) const;
-  /// The number of vertices that a face, an edge or a point names.
-  /// \param vertices the number of all
-  [[nodiscard]] std::size_t vertices_of(std::size_t vertices) const;
   /// Appends the lists from "faces" to "apart".
   void write(std::string& text) const;
 

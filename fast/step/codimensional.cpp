@@ -17,6 +17,19 @@ void mark(std::vector<std::uint8_t>& flags, std::span<const Element> elements) {
 
 Edge ordered(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
+/// Those of some vertices that have no edge, in the same order.
+std::vector<std::int32_t> points_without_edge(std::size_t vertices,
+                                              std::span<const std::int32_t> some,
+                                              std::span<const Edge> edges) {
+  std::vector<std::uint8_t> has_edge(vertices);
+  mark(has_edge, edges);
+  std::vector<std::int32_t> result;
+  std::ranges::copy_if(some, std::back_inserter(result), [&](std::int32_t vertex) {
+    return has_edge[static_cast<std::size_t>(vertex)] == 0;
+  });
+  return result;
+}
+
 }  // namespace
 
 std::vector<std::int32_t> edges_without_face(const Mesh& mesh) {
@@ -64,18 +77,6 @@ std::vector<std::int32_t> vertices_of(std::size_t vertices, const Mesh& mesh) {
   for (std::size_t i = 0; i < vertices; ++i) {
     if (is_named[i] != 0) result.push_back(static_cast<std::int32_t>(i));
   }
-  return result;
-}
-
-std::vector<std::int32_t> points_without_edge(std::size_t vertices,
-                                              std::span<const std::int32_t> some,
-                                              std::span<const Edge> edges) {
-  std::vector<std::uint8_t> has_edge(vertices);
-  mark(has_edge, edges);
-  std::vector<std::int32_t> result;
-  std::ranges::copy_if(some, std::back_inserter(result), [&](std::int32_t vertex) {
-    return has_edge[static_cast<std::size_t>(vertex)] == 0;
-  });
   return result;
 }
 

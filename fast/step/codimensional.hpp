@@ -19,11 +19,6 @@ namespace touchstone::fast {
 /// The numbers of the edges that are not edges of faces, in order.
 [[nodiscard]] std::vector<std::int32_t> edges_without_face(const Mesh& mesh);
 
-/// Those of some vertices that have no edge, in the same order.
-[[nodiscard]] std::vector<std::int32_t> points_without_edge(std::size_t vertices,
-                                                            std::span<const std::int32_t> some,
-                                                            std::span<const Edge> edges);
-
 struct Codimensional {
   /// The vertices without an edge, in order.
   std::vector<std::int32_t> points;

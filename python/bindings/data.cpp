@@ -96,9 +96,7 @@ py::tuple read(const std::string& path, const std::optional<std::string>& kind, 
 
 /// The families about contact, or a separation, and about inversion.
 std::vector<verify::generate::Family> families_about(const Separation& separation) {
-  std::vector<verify::generate::Family> all = verify::generate::families(separation);
-  std::ranges::copy(verify::generate::element_families(), std::back_inserter(all));
-  return all;
+  return verify::generate::families(separation, std::vector<std::string>{"1"});
 }
 
 /// The names of all, with those on curves.

@@ -60,11 +60,9 @@ std::vector<generate::Family> chosen(const Arguments& arguments) {
   const Separation separation = arguments.separation.given();
   if (!arguments.degrees.empty()) return generate::families(separation, arguments.degrees);
   if (arguments.names.empty()) {
-    std::vector<generate::Family> result = generate::families(separation);
-    const auto curved = generate::curved_families(), elements = generate::element_families();
-    if (arguments.list) result.insert(result.end(), curved.begin(), curved.end());
-    result.insert(result.end(), elements.begin(), elements.end());
-    return result;
+    std::vector<std::string> degrees{"1"};
+    if (arguments.list) degrees = {"1", "2", "3", "rational"};
+    return generate::families(separation, degrees);
   }
   std::vector<generate::Family> result;
   result.reserve(arguments.names.size());

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <span>
+#include <string>
 
 #include "touchstone/certified.hpp"
 #include "touchstone/mesh.hpp"
@@ -308,9 +309,8 @@ const AnyQuery& QueryPool::draw(Random& random) const {
 }
 
 GeneratorContext::GeneratorContext(const Separation& separation) : separation_(separation) {
-  std::vector<generate::Family> all = verify::generate::families(separation);
-  std::ranges::copy(generate::element_families(), std::back_inserter(all));
-  for (const generate::Family& family : all) {
+  const std::vector<std::string> straight{"1"};
+  for (const generate::Family& family : generate::families(separation, straight)) {
     for (const Kind kind : all_kinds) {
       if (generate::supports(family, kind))
         families_.at(static_cast<std::size_t>(kind)).push_back(family);

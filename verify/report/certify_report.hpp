@@ -95,7 +95,7 @@ void add_of_query(const KnownAnswers& known, const KnownAnswer& query, KnownAnsw
 [[nodiscard]] KnownAnswers wrong_answers_of(const std::vector<jobs::CertifyResult>& results);
 
 /// The known answers of a file as `baseline_document` writes it; those without a separation are
-/// about contact, in the norm linf. \throws io::DatasetError
+/// about contact. \throws io::DatasetError
 [[nodiscard]] KnownAnswers read_baseline(const std::filesystem::path& path);
 
 /// JSON with an answer a line.
