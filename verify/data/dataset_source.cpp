@@ -76,7 +76,11 @@ void DatasetSource::give_up(const io::DatasetError& fault) {
 
 /// Ground truth files must not have more entries than there are queries.
 void DatasetSource::finish() {
-  for (const io::DatasetError& fault : ground_truth_files_.beyond(count_)) skip(fault);
+  try {
+    ground_truth_files_.end(count_);
+  } catch (const io::DatasetError& fault) {
+    skip(fault);
+  }
 }
 
 void DatasetSource::skip(const io::DatasetError& fault) {

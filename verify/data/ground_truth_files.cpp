@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <fmt/format.h>
+#include <array>
 #include <cctype>
+#include <cerrno>
 #include <cstddef>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -22,12 +24,7 @@
 namespace touchstone::verify::data {
 namespace {
 
-constexpr int end_of_file = -1;
-
-bool is_word_character(int c) {
-  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' ||
-         c == '-' || c == '.';
-}
+constexpr std::size_t most_label_bytes = std::size_t{1} << 30U;
 
 /// Splits a line of two columns; false if it has another number.
 bool split_fields(std::string_view line, std::array<std::string, 2>& fields) {
@@ -58,106 +55,36 @@ std::optional<std::filesystem::path> find_tois(const std::filesystem::path& data
 
 }  // namespace
 
-LabelReader::LabelReader(std::filesystem::path path) : file_(std::move(path)) {
-  end_ = file_.read_all(buffer_);
-  const std::string_view begin(buffer_.data(), end_);
-  begin_ = begin.size() - io::without_byte_order_mark(begin, file_.path()).size();
-  if (skip_whitespace() != '[') fail("expected a JSON array of booleans");
-  take();
-}
-
-bool LabelReader::at(std::uint64_t index) {
-  if (broken_) throw io::DatasetError(*broken_);
-  while (elements_ <= index) {
-    const std::optional<Element> element = next_element();
-    if (!element) {
-      throw io::DatasetError(
-          path(), position_,
-          fmt::format("no label for query {}: the array has only {}", index, elements_));
-    }
-    if (elements_ <= index) continue;
-    if (element->text == "true" || element->text == "1") return true;
-    if (element->text == "false" || element->text == "0") return false;
-    throw io::DatasetError(path(), element->position, "not a boolean: " + io::quote(element->text));
-  }
-  throw std::logic_error("labels are read in ascending order");
-}
-
-std::optional<io::DatasetError> LabelReader::beyond(std::uint64_t count) {
-  if (broken_ || closed_) return std::nullopt;
+Labels::Labels(std::filesystem::path path) : path_(std::move(path)) {
+  const auto fail = [&](const std::string& reason) {
+    throw io::DatasetError(path_, {},
+                           reason + "; mend the file, or move it to read queries without labels");
+  };
+  nlohmann::json json;
   try {
-    while (const std::optional<Element> element = next_element()) {
-      if (elements_ > count) {
-        return io::DatasetError(path(), element->position,
-                                fmt::format("more labels than the {} queries", count));
-      }
+    json = io::read_json(path_, most_label_bytes);
+  } catch (const io::DatasetError& error) {
+    fail(error.reason());
+  }
+  if (!json.is_array()) fail("expected a JSON array of booleans");
+  for (const nlohmann::json& label : json) {
+    if (!label.is_boolean() && label != 0 && label != 1) {
+      fail(fmt::format("label {} is no boolean: {}", labels_.size(), io::quote(label.dump())));
     }
-    take();
-    if (skip_whitespace() != end_of_file) fail("expected nothing after the array");
-  } catch (const io::DatasetError& fault) {
-    return fault;
+    labels_.push_back(label == true || label == 1);
   }
-  return std::nullopt;
 }
 
-/// The next element; empty at the closing bracket, at which the position stays.
-std::optional<LabelReader::Element> LabelReader::next_element() {
-  if (closed_) return std::nullopt;
-  int c = skip_whitespace();
-  if (c == ']') {
-    closed_ = true;
-    return std::nullopt;
-  }
-  if (elements_ > 0) {
-    if (c != ',') fail("expected ',' or ']'");
-    take();
-    c = skip_whitespace();
-  }
-  if (!is_word_character(c)) fail("expected true or false");
-  Element element = read_word();
-  ++elements_;
-  return element;
+bool Labels::at(std::uint64_t index) const {
+  if (index < labels_.size()) return labels_[index];
+  throw io::DatasetError(
+      path_, {}, fmt::format("no label for query {}: there are only {}", index, labels_.size()));
 }
 
-LabelReader::Element LabelReader::read_word() {
-  static constexpr std::size_t longest_word = 64;
-  Element element{.text = {}, .position = position_};
-  for (int c = peek(); is_word_character(c); c = peek()) {
-    if (element.text.size() == longest_word) fail("expected true or false");
-    element.text += static_cast<char>(c);
-    take();
-  }
-  return element;
-}
-
-/// The next byte, which stays, or end_of_file.
-int LabelReader::peek() {
-  if (begin_ == end_) {
-    begin_ = 0;
-    end_ = file_.read(buffer_);
-    if (end_ == 0) return end_of_file;
-  }
-  return static_cast<unsigned char>(buffer_.at(begin_));
-}
-
-void LabelReader::take() {
-  if (peek() == '\n') {
-    position_ = {.line = position_.line + 1, .column = 1};
-  } else {
-    ++position_.column;
-  }
-  ++begin_;
-}
-
-int LabelReader::skip_whitespace() {
-  int c = peek();
-  for (; c == ' ' || c == '\t' || c == '\r' || c == '\n'; c = peek()) take();
-  return c;
-}
-
-void LabelReader::fail(const std::string& reason) {
-  broken_.emplace(path(), position_, reason);
-  throw io::DatasetError(*broken_);
+void Labels::end(std::uint64_t count) const {
+  if (labels_.size() <= count) return;
+  throw io::DatasetError(path_, {},
+                         fmt::format("{} labels, but {} queries", labels_.size(), count));
 }
 
 ToiReader::ToiReader(std::filesystem::path path) : lines_(std::move(path)) {
@@ -171,9 +98,7 @@ ToiReader::ToiReader(std::filesystem::path path) : lines_(std::move(path)) {
 }
 
 std::optional<exact::Rational> ToiReader::at(std::uint64_t index) {
-  if (broken_) throw io::DatasetError(*broken_);
-  seek(index);
-  if (!entry_ || entry_->query != index) return std::nullopt;
+  if (!seek(index) || entry_->query != index) return std::nullopt;
   try {
     return exact::rational_from_decimal(entry_->decimal);
   } catch (const std::invalid_argument&) {
@@ -182,49 +107,34 @@ std::optional<exact::Rational> ToiReader::at(std::uint64_t index) {
   }
 }
 
-std::optional<io::DatasetError> ToiReader::beyond(std::uint64_t count) {
-  if (broken_) return std::nullopt;
-  try {
-    seek(count);
-  } catch (const io::DatasetError& fault) {
-    return fault;
-  }
-  if (!entry_) return std::nullopt;
-  return io::DatasetError(
+void ToiReader::end(std::uint64_t count) {
+  if (!seek(count)) return;
+  throw io::DatasetError(
       lines_.path(), {.line = entry_->line, .column = 1},
       fmt::format("toi of query {}, but there are {} queries", entry_->query, count));
 }
 
-void ToiReader::seek(std::uint64_t index) {
-  try {
-    while (!ended_ && (!entry_ || entry_->query < index)) {
-      entry_ = next_entry();
-      ended_ = !entry_;
-    }
-  } catch (const io::DatasetError& fault) {
-    broken_ = fault;
-    throw;
+bool ToiReader::seek(std::uint64_t index) {
+  while (!entry_ || entry_->query < index) {
+    if (lines_.at_end()) return false;
+    entry_ = read_entry();
   }
+  return true;
 }
 
-std::optional<ToiReader::Entry> ToiReader::next_entry() {
-  const std::optional<io::Line> line = lines_.next();
-  if (!line) return std::nullopt;
+ToiReader::Entry ToiReader::read_entry() {
+  const io::Line line = lines_.next().value();
+  const auto fail = [&](std::uint64_t column, const std::string& reason) {
+    throw io::DatasetError(lines_.path(), {.line = line.number, .column = column}, reason);
+  };
   std::array<std::string, 2> fields;
-  if (!split_fields(line->text, fields)) {
-    fail({.line = line->number}, "expected two columns, query and toi");
-  }
+  if (!split_fields(line.text, fields)) fail(0, "expected two columns, query and toi");
   const std::string_view query_text = io::trimmed(fields[0]);
-  const std::optional<std::uint64_t> query = io::number_from_text<std::uint64_t>(query_text);
-  const io::FilePosition position{.line = line->number, .column = 1};
-  if (!query) fail(position, "not a query number: " + io::quote(query_text));
-  if (entry_ && *query <= entry_->query) fail(position, "query numbers do not ascend");
-  return Entry{
-      .query = *query, .decimal = std::string(io::trimmed(fields[1])), .line = line->number};
-}
-
-void ToiReader::fail(io::FilePosition position, const std::string& reason) const {
-  throw io::DatasetError(lines_.path(), position, reason);
+  const auto query = io::number_from_text<std::uint64_t>(query_text);
+  if (!query) fail(1, "not a query number: " + io::quote(query_text));
+  if (entry_ && *query <= entry_->query) fail(1, "query numbers do not ascend");
+  return {
+      .query = query.value(), .decimal = std::string(io::trimmed(fields[1])), .line = line.number};
 }
 
 std::string dataset_stem(const std::filesystem::path& dataset) {
@@ -253,15 +163,9 @@ RecordedTruth GroundTruthFiles::at(std::uint64_t index) {
   return truth;
 }
 
-std::vector<io::DatasetError> GroundTruthFiles::beyond(std::uint64_t count) {
-  std::vector<io::DatasetError> faults;
-  if (labels_) {
-    if (auto fault = labels_->beyond(count)) faults.push_back(*fault);
-  }
-  if (tois_) {
-    if (auto fault = tois_->beyond(count)) faults.push_back(*fault);
-  }
-  return faults;
+void GroundTruthFiles::end(std::uint64_t count) {
+  if (labels_) labels_->end(count);
+  if (tois_) tois_->end(count);
 }
 
 std::filesystem::path GroundTruthFiles::label_path() const {
@@ -354,29 +258,6 @@ constexpr std::size_t most_bytes = std::size_t{1} << 16U;
 constexpr const char* distance_key = "min_separation";
 constexpr const char* norm_key = "norm";
 
-/// True if there is a digit other than 0 before the exponent.
-bool has_value(std::string_view text) {
-  const bool is_hexadecimal = text.find_first_of("xX") != std::string_view::npos;
-  const std::size_t end = text.find_first_of(is_hexadecimal ? "pP" : "eE");
-  return text.substr(0, end).find_first_of("123456789abcdefABCDEF") != std::string_view::npos;
-}
-
-/// Parses the file; of its keys at the top none may be unknown.
-nlohmann::json parse(const fs::path& path) {
-  const auto check_key = [&](int depth, nlohmann::json::parse_event_t event,
-                             const nlohmann::json& value) {
-    if (event != nlohmann::json::parse_event_t::key || depth != 1) return true;
-    const auto key = value.get<std::string>();
-    if (key != distance_key && key != norm_key) {
-      throw io::DatasetError(path, {},
-                             fmt::format("unknown key {}, expected {} and {}", io::quote(key),
-                                         distance_key, norm_key));
-    }
-    return true;
-  };
-  return io::read_json(path, most_bytes, check_key);
-}
-
 }  // namespace
 
 std::optional<double> distance_from_text(const std::string& text) {
@@ -384,10 +265,11 @@ std::optional<double> distance_from_text(const std::string& text) {
     return std::nullopt;
   }
   char* end = nullptr;
+  errno = 0;
   const double distance = std::strtod(text.c_str(), &end);
   const bool is_read = end == text.c_str() + text.size();
   if (!is_read || !is_valid({.distance = distance})) return std::nullopt;
-  if (distance == 0.0 && has_value(text)) return std::nullopt;
+  if (distance == 0.0 && errno == ERANGE) return std::nullopt;
   // −0 is the distance 0.
   return distance == 0.0 ? 0.0 : distance;
 }
@@ -404,8 +286,11 @@ std::optional<fs::path> find_separation_file(const fs::path& dataset) {
 
 Separation read_separation(const fs::path& path) {
   try {
-    const nlohmann::json json = parse(path);
+    const nlohmann::json json = io::read_json(path, most_bytes);
     const auto distance = distance_from_text(json.at(distance_key).get<std::string>());
+    if (json.size() != 2) {
+      throw io::DatasetError(path, {}, "expected min_separation and norm, and nothing else");
+    }
     if (!distance) throw io::DatasetError(path, {}, "min_separation must be a finite number ≥ 0");
     return {.distance = *distance, .norm = norm_from_string(json.at(norm_key).get<std::string>())};
   } catch (const nlohmann::json::exception& error) {

@@ -5,12 +5,9 @@
 /// <name>_toi.csv (the header "query,toi", then a line for each query that has one). ToiWriter
 /// writes the latter.
 ///
-/// Both are read as streams in step with the queries: entries are requested by ascending number,
-/// and earlier ones are skipped. If the place of the next entry is certain (`null` in place of a
-/// label, a malformed decimal), a fault concerns one query. After any other fault the query of an
-/// entry is unknown: from there on every query has the same error.
+/// Each line of times has the number of its query, so a faulty one costs one query. Damaged labels,
+/// which are read whole, are an error of the dataset.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -26,63 +23,40 @@
 
 namespace touchstone::verify::data {
 
-/// Labels from a flat JSON array of true, false, 1 and 0, one for each query. Columns of errors
-/// count the bytes of a line. The JSON library's parser stops at the first word that is not JSON
-/// and does not read in step with the queries; here a wrong word invalidates the label of one
-/// query.
-class LabelReader {
+/// Labels from a flat JSON array of true, false, 1 and 0, one for each query.
+class Labels {
  public:
-  /// \throws DatasetError if the file cannot be read or does not begin with '['.
-  explicit LabelReader(std::filesystem::path path);
+  /// \throws DatasetError if the file cannot be read or is no such array.
+  explicit Labels(std::filesystem::path path);
 
-  /// The label of a query; numbers must ascend from call to call.
-  /// \throws DatasetError if there is none, or the entry is not a label.
-  [[nodiscard]] bool at(std::uint64_t index);
+  /// The label of a query. \throws DatasetError if there is none.
+  [[nodiscard]] bool at(std::uint64_t index) const;
 
-  /// The error, if any, after the labels of `count` queries: an additional label, or invalid JSON
-  /// that at() has not reported. Must be the last call.
-  [[nodiscard]] std::optional<io::DatasetError> beyond(std::uint64_t count);
+  /// \throws DatasetError if there are more labels than that.
+  void end(std::uint64_t count) const;
 
-  [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
-  /// An element of the array: a bare word or number, not yet known to be a label.
-  struct Element {
-    std::string text;
-    io::FilePosition position;
-  };
-
-  [[nodiscard]] std::optional<Element> next_element();
-  [[nodiscard]] Element read_word();
-  [[nodiscard]] int peek();
-  int skip_whitespace();
-  void take();
-  [[noreturn]] void fail(const std::string& reason);
-
-  io::InputFile file_;
-  std::array<char, 4096> buffer_{};
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
-  io::FilePosition position_{.line = 1, .column = 1};
-  std::uint64_t elements_ = 0;
-  bool closed_ = false;
-  std::optional<io::DatasetError> broken_;
+  std::filesystem::path path_;
+  std::vector<bool> labels_;
 };
 
-/// Times of impact from lines "query,toi" below that header: query numbers strictly ascending,
-/// possibly with gaps; decimals of any length. Columns of errors count fields.
+/// Times of impact from lines "query,toi" below that header, read in step with the queries: query
+/// numbers strictly ascending, possibly with gaps; decimals of any length. Columns of errors count
+/// fields. After an error it goes on with the next line.
 class ToiReader {
  public:
   /// \throws DatasetError if the file cannot be read or has another header.
   explicit ToiReader(std::filesystem::path path);
 
   /// The time of impact of a query, if it has one; numbers must ascend from call to call.
-  /// \throws DatasetError if the entry is not a time, or the file is invalid before it.
+  /// \throws DatasetError if its line, or one that is read on the way to it, is invalid.
   [[nodiscard]] std::optional<exact::Rational> at(std::uint64_t index);
 
-  /// The error, if any, after the entries of `count` queries: an entry of a later query, or an
-  /// invalid line that at() has not reported. Must be the last call.
-  [[nodiscard]] std::optional<io::DatasetError> beyond(std::uint64_t count);
+  /// \throws DatasetError if an entry of a later query or an invalid line follows the entries of
+  /// that many queries.
+  void end(std::uint64_t count);
 
  private:
   struct Entry {
@@ -91,15 +65,12 @@ class ToiReader {
     std::uint64_t line;
   };
 
-  /// Advances entry_ to the first one of query `index` or later.
-  void seek(std::uint64_t index);
-  [[nodiscard]] std::optional<Entry> next_entry();
-  [[noreturn]] void fail(io::FilePosition position, const std::string& reason) const;
+  /// Advances entry_ to the first one of query `index` or later; false if there is none.
+  bool seek(std::uint64_t index);
+  [[nodiscard]] Entry read_entry();
 
   io::LineReader lines_;
   std::optional<Entry> entry_;
-  bool ended_ = false;
-  std::optional<io::DatasetError> broken_;
 };
 
 /// The ground truth of a query that files beside the dataset record.
@@ -120,21 +91,21 @@ struct RecordedTruth {
 /// <dir>/<name>_mma_bool.json, and likewise toi/<name>_toi.csv.
 class GroundTruthFiles {
  public:
-  /// \throws DatasetError if a companion exists but its beginning cannot be read.
+  /// \throws DatasetError if labels exist but cannot be read, or the header of times.
   explicit GroundTruthFiles(const std::filesystem::path& dataset);
 
   /// The recorded ground truth of a query; numbers must ascend from call to call.
   /// \throws DatasetError if the record cannot be read.
   [[nodiscard]] RecordedTruth at(std::uint64_t index);
 
-  /// The errors after the entries of `count` queries, at most one for each file.
-  [[nodiscard]] std::vector<io::DatasetError> beyond(std::uint64_t count);
+  /// \throws DatasetError if a file has more entries than those of that many queries.
+  void end(std::uint64_t count);
 
   /// The file of the labels, empty if there is none.
   [[nodiscard]] std::filesystem::path label_path() const;
 
  private:
-  std::optional<LabelReader> labels_;
+  std::optional<Labels> labels_;
   std::optional<ToiReader> tois_;
 };
 

@@ -13,17 +13,12 @@ namespace {
 
 constexpr char apostrophe = '\'';
 
-bool is_number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  return number_from_text<double>(text).has_value();
-}
-
 /// Would a spreadsheet compute the text, but for apostrophes in front?
 bool is_formula(std::string_view text) {
   static constexpr std::string_view marks = "=+-@";
   const std::size_t first = text.find_first_not_of(apostrophe);
   return first != std::string_view::npos && text.size() > 1 &&
-         marks.find(text[first]) != std::string_view::npos && !is_number(text);
+         marks.find(text[first]) != std::string_view::npos && !number_from_text<double>(text);
 }
 
 /// Takes a field that begins with a quote from the front of the record, the comma behind it

@@ -29,8 +29,7 @@ double number_from_json(const nlohmann::json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
-nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_bytes,
-                         const nlohmann::json::parser_callback_t& accept) {
+nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_bytes) {
   std::map<int, std::set<std::string>> keys;  // of the open object of each depth
   const auto check = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& value) {
     if (depth > deepest_json) {
@@ -40,7 +39,7 @@ nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_byt
     if (event == nlohmann::json::parse_event_t::key && !keys[depth].insert(value).second) {
       throw DatasetError(path, {}, "repeated key " + quote(value.get<std::string>()));
     }
-    return accept == nullptr || accept(depth, event, value);
+    return true;
   };
   try {
     return nlohmann::json::parse(without_byte_order_mark(read_file(path, most_bytes), path), check);

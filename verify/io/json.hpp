@@ -29,11 +29,9 @@ namespace touchstone::verify::io {
 inline constexpr int deepest_json = 100;
 
 /// The JSON in a file.
-/// \param accept called as nlohmann::json::parse does, once the depth is right
 /// \throws DatasetError if the file cannot be read, has more bytes, is no JSON or nested deeper,
-/// has a number beyond the range or a key twice in one object; whatever `accept` throws.
-[[nodiscard]] nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_bytes,
-                                       const nlohmann::json::parser_callback_t& accept = nullptr);
+/// has a number beyond the range or a key twice in one object.
+[[nodiscard]] nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_bytes);
 
 /// The reason that an exception of JSON gives, without the library's name and number of it: "key
 /// 'format' not found". The text of any other exception is as it is.

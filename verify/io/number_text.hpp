@@ -12,10 +12,11 @@
 namespace touchstone::verify::io {
 
 /// The number that the whole text is; empty if it is none, is not whole for an integer type, or is
-/// out of range of `Number`. Decimal, optionally with an exponent and a '-', without a '+'; "nan"
-/// and "inf" are numbers of floating-point types.
+/// out of range of `Number`. Decimal, optionally with a sign and an exponent; "nan" and "inf" are
+/// numbers of floating-point types.
 template <class Number>
 [[nodiscard]] std::optional<Number> number_from_text(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   Number value{};
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
@@ -33,15 +34,6 @@ template <class Number>
   const std::string_view word = line.substr(0, line.find_first_of(blanks));
   line.remove_prefix(word.size());
   return word;
-}
-
-/// The number of a text; empty if it is none, is not whole for an integer type, or is out of range
-/// of `Number`. Decimal, optionally with an exponent and a leading '+'; "nan" and "inf" are numbers
-/// of floating-point types.
-template <class Number>
-[[nodiscard]] std::optional<Number> parse_number(std::string_view text) {
-  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  return number_from_text<Number>(text);
 }
 
 }  // namespace touchstone::verify::io

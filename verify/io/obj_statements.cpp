@@ -69,7 +69,7 @@ std::optional<ObjStatement> ObjStatements::next() {
 void ObjStatements::pass_over_behind_vertex(std::string_view words, std::uint64_t line) {
   std::vector<double> numbers;
   for (auto word = take_word(words); !word.empty(); word = take_word(words)) {
-    const auto number = parse_number<double>(word);
+    const auto number = number_from_text<double>(word);
     if (!number) fail(line, quote(word) + " is no number, or none that a double holds");
     numbers.push_back(*number);
   }

@@ -55,7 +55,7 @@ NameNumber take_number(std::string_view& text) {
     const bool is_signed = !rest.empty() && (rest[0] == '-' || rest[0] == '+');
     const bool is_negative = is_signed && rest[0] == '-';
     if (is_signed) rest.remove_prefix(1);
-    const auto exponent = io::parse_number<std::int32_t>(take_digits(rest));
+    const auto exponent = io::number_from_text<std::int32_t>(take_digits(rest));
     if (exponent) {
       scale += is_negative ? -*exponent : *exponent;
       text = rest;

@@ -28,7 +28,7 @@ bool is_corner(std::string_view word) {
        slash = word.find('/')) {
     word.remove_prefix(slash + 1);
     const std::string_view part = word.substr(0, word.find('/'));
-    if (!part.empty() && !io::parse_number<std::int32_t>(part)) return false;
+    if (!part.empty() && !io::number_from_text<std::int32_t>(part)) return false;
     ++parts;
   }
   return parts <= 3;
@@ -78,7 +78,7 @@ class ObjReader {
     for (double& coordinate : vertex) {
       const std::string_view word = io::take_word(words);
       if (word.empty()) fail("a vertex must have three coordinates");
-      const auto value = io::parse_number<double>(word);
+      const auto value = io::number_from_text<double>(word);
       if (!value) fail(io::quote(word) + " is no number, or none that a double holds");
       if (!std::isfinite(*value)) fail("a coordinate must be finite");
       coordinate = *value;
@@ -180,7 +180,7 @@ class ObjReader {
 
   /// The vertex's index, counted from 0. Numbers of a texture and a normal may follow.
   [[nodiscard]] std::int32_t read_corner(std::string_view word) const {
-    const auto number = io::parse_number<std::int32_t>(word.substr(0, word.find('/')));
+    const auto number = io::number_from_text<std::int32_t>(word.substr(0, word.find('/')));
     if (!number || !is_corner(word)) fail(io::quote(word) + " is no corner");
     if (*number > 0) return *number - 1;
     const auto index = static_cast<std::int64_t>(vertices_.size()) + *number;

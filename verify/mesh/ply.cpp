@@ -216,7 +216,7 @@ class HeaderReader {
 
   void read_element(std::string_view& rest) {
     const std::string_view name = io::take_word(rest), count = io::take_word(rest);
-    const auto number = io::parse_number<std::uint64_t>(count);
+    const auto number = io::number_from_text<std::uint64_t>(count);
     if (name.empty() || !number) fail_at(count);
     header_.elements.push_back({.name = std::string(name), .count = *number, .properties = {}});
   }
@@ -268,7 +268,7 @@ class TextValues {
   double next(Scalar type) {
     if (word_.empty()) input_.fail("too few values");
     const auto value = with_type(type, [this](auto number) -> std::optional<double> {
-      const auto parsed = io::parse_number<decltype(number)>(word_);
+      const auto parsed = io::number_from_text<decltype(number)>(word_);
       if (!parsed) return std::nullopt;
       return static_cast<double>(*parsed);
     });

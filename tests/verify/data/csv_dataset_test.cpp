@@ -307,57 +307,39 @@ TEST(CurvedCsv, IsReadInEveryShapeAndFormatOfNumbers) {
   }
 }
 
-TEST(CurvedCsv, MayHaveBlankLinesHeadersQuotesAndItsShapeAgain) {
-  const TemporaryFolder folder;
-  const std::string rows = numbered_text(rational.shape, 1, false, true);
-  const std::string text = "\n\"rational\", 2\r\n\nx,y,z,w,label\n" + rows + "\n" +
-                           "\"rational\", 2\r\nx,y,z,w,label\n" + rows;
-  const auto source = open_dataset(folder.file("a_ee.csv", text));
-  const auto records = read_all(*source);
-  ASSERT_EQ(records.size(), 2U);
-  EXPECT_EQ(records[1].query, numbered(rational.shape, 0));
-}
-
-TEST(CurvedCsv, WithAFaultyFirstLineIsRefused) {
+TEST(CurvedCsv, NamesItsFaultyLines) {
   const std::string range = ": the degree of curves must be from 1 to 8, not ";
   const std::string whole = ": the degree must be a whole number: ";
-  EXPECT_EQ(error_in("a.csv", "degree,9\n"), "a.csv:1:2" + range + "9");
-  EXPECT_EQ(error_in("a.csv", "\nrational,0\n"),
-            "a.csv:2:2" + range + "0; repeat the control point of a point at rest");
-  EXPECT_EQ(error_in("a.csv", "rational,-1\n"), "a.csv:1:2" + whole + "\"-1\"");
-  EXPECT_EQ(error_in("a.csv", "degree,\n"), "a.csv:1:2" + whole + "\"\"");
-  EXPECT_EQ(error_in("a.csv", "degree,2\n"), "a.csv: no queries");
-  EXPECT_TRUE(error_in("a.csv", "degree\n1,2,3\n").starts_with("a.csv:1: 1 columns, expected 3, "));
-  EXPECT_TRUE(error_in("a.csv", "degrees,2\n").starts_with("a.csv:1: 2 columns, expected 3, "));
-}
-
-TEST(CurvedCsv, LosesCountAtALineThatIsNoRow) {
   const std::string rows = numbered_text(rational.shape, 1, false, false);
   const std::string lost =
       "; the rest of the file is left out, since it is unknown from here on which 12 rows are a "
       "query: mend this line";
-  EXPECT_EQ(error_in("a.csv", "rational,2\n1,2,3\n"),
-            "a.csv:2: 3 columns, expected 4, 5, 8 or 9" + lost);
-  EXPECT_EQ(error_in("a.csv", "rational,2\n" + rows + "degree,2\n"),
-            "a.csv:14: 2 columns, expected 4 as before" + lost);
+  for (const auto& [text, error] : std::vector<std::pair<std::string, std::string>>{
+           {"degree,9\n", "1:2" + range + "9"},
+           {"\nrational,0\n", "2:2" + range + "0; repeat the control point of a point at rest"},
+           {"rational,-1\n", "1:2" + whole + "\"-1\""},
+           {"degree,\n", "1:2" + whole + "\"\""},
+           {"degree,2\n", " no queries"},
+           {"rational,2\n1,2,3\n", "2: 3 columns, expected 4, 5, 8 or 9" + lost},
+           {"rational,2\n" + rows + "degree,2\n", "14: 2 columns, expected 4 as before" + lost}}) {
+    EXPECT_EQ(strict_error(text), error);
+  }
+  for (const char* const word : {"degree\n1,2,3\n", "degrees,2\n"}) {
+    EXPECT_TRUE(strict_error(word).ends_with(rest_is_left_out)) << word;
+  }
 }
 
 TEST(CurvedCsv, SkipsAQueryWithAnInvalidNumberOrWeight) {
   const std::string good = numbered_text(weighted.shape, 1, false, false);
   std::string rest;
   for (int i = 0; i < 7; ++i) rest += "1,2,3,1\n";
-  for (const auto& [row, fault] :
-       {std::pair{"1,2,3,0", ":4: a weight must be positive"},
-        std::pair{"1,2,3,-1", ":4: a weight must be positive"},
-        std::pair{"1,2,3,0.1", ":4: not exactly a double (--round takes the nearest)"},
-        std::pair{"1,2,x,1", ":3: not a number: \"x\""}}) {
-    const TemporaryFolder folder;
-    const auto path = folder.file("a_ee.csv", "rational,1\n" + good + row + "\n" + rest + good);
-    const Survivors kept = read_survivors(path, folder.path());
-    EXPECT_EQ(kept.messages, std::vector<std::string>{"a_ee.csv:10" + std::string(fault)});
-    ASSERT_EQ(kept.records.size(), 2U);
-    EXPECT_EQ(kept.records[1].index, 2U);
-    EXPECT_EQ(kept.records[1].query, numbered(weighted.shape, 0));
+  for (const auto& [row, fault] : {std::pair{"1,2,3,0", ":4: a weight must be positive"},
+                                   std::pair{"1,2,3,-1", ":4: a weight must be positive"},
+                                   std::pair{"1,2,x,1", ":3: not a number: \"x\""}}) {
+    const Survivors kept = survivors("rational,1\n" + good + row + "\n" + rest + good);
+    EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:10" + std::string(fault)});
+    expect_numbered({kept.records.front()}, {0}, weighted.shape);
+    EXPECT_EQ(kept.records.back().index, 2U);
   }
 }
 
@@ -432,38 +414,28 @@ TEST(CurvedNpy, IsReadBackAsItWasWritten) {
   }
 }
 
-TEST(NpyDataset, NamesTheCoordinateThatIsNotFiniteAndSkipsItsQueryOnly) {
-  const TemporaryFolder folder;
-  for (std::size_t coordinate = 0; coordinate < 24; ++coordinate) {
-    std::vector<double> numbers;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto query = numbered(straight.shape, i);
-      numbers.insert(numbers.end(), query.numbers().begin(), query.numbers().end());
-    }
-    numbers[48 + coordinate] = std::array{std::nan(""), HUGE_VAL, -HUGE_VAL}.at(coordinate % 3);
-    const auto path = folder.file("a_ee.npy", tests::array("<f8", {4, 8, 3}, numbers));
-    const std::string expected = "a_ee.npy: query 2, point " + std::to_string(coordinate / 3) +
-                                 ", " + "xyz"[coordinate % 3] + ": not finite";
-    EXPECT_EQ(error_of(folder.path(), [&] { (void)read_all(*open_dataset(path)); }), expected);
-    const Survivors kept = read_survivors(path, folder.path());
-    expect_numbered(kept.records, {0, 1, 3});
-    EXPECT_EQ(kept.messages, std::vector<std::string>{expected});
-  }
-}
-
 TEST(CurvedNpy, SkipsAQueryWithAnInvalidNumberOrWeight) {
-  for (const auto& [place, value, fault] :
-       {std::tuple{std::size_t{6}, HUGE_VAL, "point 1, z: not finite"},
-        std::tuple{std::size_t{3}, std::nan(""), "point 0, weight: not positive and finite"},
-        std::tuple{std::size_t{15}, 0.0, "point 3, weight: not positive and finite"},
-        std::tuple{std::size_t{15}, HUGE_VAL, "point 3, weight: not positive and finite"}}) {
-    std::vector<double> numbers(96, 1.0);
-    numbers[32 + place] = value;
+  const auto expect_skipped = [](std::vector<double> numbers, std::vector<std::uint64_t> extents,
+                                 const std::string& fault) {
     const TemporaryFolder folder;
     const Survivors kept = read_survivors(
-        folder.file("a_ee.npy", tests::array("<f8", {3, 2, 4, 4}, numbers)), folder.path());
-    EXPECT_EQ(kept.messages, std::vector<std::string>{std::string("a_ee.npy: query 1, ") + fault});
+        folder.file("a_ee.npy", tests::array("<f8", extents, numbers)), folder.path());
+    EXPECT_EQ(kept.messages, std::vector<std::string>{"a_ee.npy: query 1, " + fault});
     EXPECT_EQ(kept.records.size(), 2U);
+  };
+  for (std::size_t i = 0; i < 24; ++i) {
+    std::vector<double> numbers(72, 1.0);
+    numbers[24 + i] = std::array{std::nan(""), HUGE_VAL, -HUGE_VAL}.at(i % 3);
+    expect_skipped(numbers, {3, 8, 3},
+                   "point " + std::to_string(i / 3) + ", " + "xyz"[i % 3] + ": not finite");
+  }
+  for (const auto& [place, value, point] :
+       {std::tuple{std::size_t{3}, std::nan(""), "0"}, std::tuple{std::size_t{15}, 0.0, "3"},
+        std::tuple{std::size_t{15}, HUGE_VAL, "3"}}) {
+    std::vector<double> numbers(96, 1.0);
+    numbers[32 + place] = value;
+    expect_skipped(numbers, {3, 2, 4, 4},
+                   std::string("point ") + point + ", weight: not positive and finite");
   }
 }
 

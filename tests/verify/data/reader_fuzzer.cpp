@@ -154,7 +154,7 @@ void read_truth(const fs::path& path) {
     } catch (const DatasetError&) {  // One may be faulty and the next one valid.
     }
   }
-  static_cast<void>(truth.beyond(index));
+  truth.end(index);
 }
 
 void read_separation_file(const fs::path& path) {
@@ -166,15 +166,14 @@ struct Reader {
   void (*read)(const fs::path& path);
 };
 
-constexpr std::array<Reader, 8> readers{
-    {{"csv", read_csv},
-     {"npy", read_npy},
-     {"answers", read_answers},
-     {"obj", read_obj_file},
-     {"ply", read_ply_file},
-     {"labels", read_truth<touchstone::verify::data::LabelReader>},
-     {"tois", read_truth<touchstone::verify::data::ToiReader>},
-     {"separation", read_separation_file}}};
+constexpr std::array<Reader, 8> readers{{{"csv", read_csv},
+                                         {"npy", read_npy},
+                                         {"answers", read_answers},
+                                         {"obj", read_obj_file},
+                                         {"ply", read_ply_file},
+                                         {"labels", read_truth<touchstone::verify::data::Labels>},
+                                         {"tois", read_truth<touchstone::verify::data::ToiReader>},
+                                         {"separation", read_separation_file}}};
 
 const Reader& chosen_reader() {
   const char* const name = std::getenv("TOUCHSTONE_READER");
