@@ -82,8 +82,9 @@ constexpr std::string_view layer_lines = R"(
   verify/data/: verify/data/ verify/base/ verify/io/ REST
   verify/mesh/: verify/mesh/ verify/data/ verify/io/ REST
   verify/generate/: verify/generate/ verify/base/ verify/data/ verify/io/ verify/mesh/ REST
-// The published methods use packages that simulators do not need, and the rounding mode.
-  verify/baselines/: verify/baselines/ verify/generate/random_stream.hpp fast/ filters/ gmpxx.h exact/curved_query.hpp exact/element.hpp exact/query.hpp Eigen/ boost/numeric/interval.hpp xmmintrin.h
+  verify/baselines/: verify/baselines/ fast/ filters/ exact/curved_query.hpp exact/element.hpp exact/query.hpp Eigen/
+// Plugins: they use packages that simulators do not need, and the rounding mode.
+  verify/published/: verify/published/ verify/baselines/ verify/generate/random_stream.hpp verify/plugin.h fast/ gmpxx.h exact/query.hpp Eigen/ xmmintrin.h
   verify/judge/: verify/judge/ verify/base/ verify/data/ verify/io/ REST
   verify/solvers/: verify/solvers/ verify/base/ verify/baselines/ verify/io/ verify/judge/ REST
 // All that needs Linux.
@@ -136,7 +137,8 @@ constexpr std::string_view headers_without_test = R"(
   adapters/tight_inclusion/: config.hpp
 // The answers of the methods; the queries of the families; files and child processes, tables, certify, solve.
   verify/base/: any_query.hpp cores.hpp
-  verify/baselines/: closest_features.hpp exact_number.hpp interval_search.hpp method_support.hpp moving_polynomials.hpp
+  verify/baselines/: closest_features.hpp method_support.hpp moving_polynomials.hpp
+  verify/published/: error_bounded.hpp exact_number.hpp interval_search.hpp planar_overlap.hpp published.hpp upward_interval.hpp
   verify/fuzz/: fuzz_report.hpp
   verify/generate/: coordinate_sampler.hpp curved_families.hpp draws.hpp grid.hpp offset.hpp passing_planes.hpp
   verify/io/: descriptor.hpp text_table.hpp

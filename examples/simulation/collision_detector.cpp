@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "verify/solvers/registry.hpp"
+#include "verify/solvers/published.hpp"
 
 namespace touchstone::simulation {
 namespace {
@@ -48,7 +48,7 @@ Candidates candidates_of(const fast::Step& step) {
 CollisionDetector::CollisionDetector(DetectorOptions options)
     : options_(std::move(options)),
       solver_(verify::solvers::solver_in_process(
-          verify::solvers::find_method(options_.method),
+          verify::solvers::find_any(options_.method),
           {.tolerance = options_.tolerance, .max_checks = 1'000'000})) {}
 
 bool CollisionDetector::is_whole() const {

@@ -196,7 +196,7 @@ def test_errors(queries):
         (lambda: touchstone.decide("edge_edge", np.stack([queries[0], queries[0] * np.inf])), "query 1: coordinate"),
         (lambda: touchstone.prove("edge_edge", queries[0], claim="no_collision"), "claim must be"),
         (lambda: touchstone.solve("edge_edge", queries, method="frobnicate"), "no method is called frobnicate .there are: certified"),
-        (lambda: touchstone.solve("edge_edge", queries, method="rp", separation=1.0), "knows no separation but 0"),
+        (lambda: touchstone.solve("edge_edge", queries, method="cubic", separation=1.0), "knows no separation but 0"),
         (lambda: touchstone.check(b"", claim="frobnicate"), ""),
     ]:
         with pytest.raises(ValueError, match=text):

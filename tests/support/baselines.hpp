@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,6 +42,52 @@ namespace touchstone::tests {
   fast::Answer answer;
   method.solve(Queries(posed.kind, {&posed.query, 1}), {&answer, 1}, options);
   return answer;
+}
+
+// ---- Answers to single queries ------------------------------------------------------------------
+
+/// A verdict, from ≤ toi_lower < to, and the number of checks.
+struct Said {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr std::uint32_t any_number = std::numeric_limits<std::uint32_t>::max();
+
+  fast::Verdict verdict;
+  double from = -infinity, to = infinity;
+  std::uint32_t checks = any_number;
+};
+
+[[nodiscard]] inline Said yes_at(double toi, std::uint32_t checks = Said::any_number) {
+  return {fast::Verdict::yes, toi, std::nextafter(toi, 2.0), checks};
+}
+
+struct SaidRow {
+  const char* method;
+  PosedQuery query;
+  Said said;
+  bool is_wrong = false;  ///< a yes without a collision, or a no to one
+  fast::MethodOptions options = {};
+};
+
+[[nodiscard]] inline fast::MethodOptions within(double distance) {
+  return {.separation = {.distance = distance, .norm = Norm::l2}};
+}
+
+/// The method says so, and the oracle says whether it is wrong.
+inline void expect_said(const fast::Method& method, const SaidRow& row) {
+  SCOPED_TRACE(::testing::Message() << row.method << ' ' << row.query);
+  const fast::Answer answer = answer_to(method, row.query, row.options);
+  EXPECT_EQ(answer.verdict, row.said.verdict);
+  if (row.said.to != Said::infinity) {
+    EXPECT_TRUE(row.said.from <= answer.toi_lower && answer.toi_lower < row.said.to)
+        << answer.toi_lower;
+  }
+  EXPECT_TRUE(answer.verdict == fast::Verdict::yes || std::isnan(answer.toi_lower));
+  if (row.said.checks != Said::any_number) {
+    EXPECT_EQ(answer.checks, row.said.checks);
+  }
+  const bool collides =
+      exact::decide(row.query.kind, row.query.query, row.options.separation).collides();
+  EXPECT_EQ(answer.verdict == (collides ? fast::Verdict::no : fast::Verdict::yes), row.is_wrong);
 }
 
 enum class Movement { independent, translation };

@@ -1,11 +1,9 @@
 #include "verify/baselines/method_support.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <new>
-#include <type_traits>
 #include <utility>
 
 #include "fast/platform/floating_point_state.hpp"
@@ -18,11 +16,6 @@ namespace {
 fast::Answer call(AnswerFunction answer, const Queries& queries, std::size_t i,
                   const fast::MethodOptions& options) {
   return answer(queries.kind, queries.straight()[i], options);
-}
-fast::Answer call(VerdictFunction collides, const Queries& queries, std::size_t i,
-                  const fast::MethodOptions& /*options*/) {
-  const bool is_yes = collides(queries.kind, queries.straight()[i]);
-  return {.verdict = is_yes ? fast::Verdict::yes : fast::Verdict::no};
 }
 fast::Answer call(AnyAnswerFunction answer, const Queries& queries, std::size_t i,
                   const fast::MethodOptions& options) {
@@ -57,10 +50,7 @@ class BaselineMethod final : public fast::Method {
       std::ranges::fill(answers, fast::Answer{.verdict = fast::Verdict::error});
       return;
     }
-    // (Of verdicts none uses Boost.Interval.)
-    const std::conditional_t<std::is_same_v<Function, VerdictFunction>, fast::StrictFloatingPoint,
-                             NearestRounding>
-        state;
+    const fast::StrictFloatingPoint state;
     for (std::size_t i = 0; i < answers.size(); ++i) {
       answers[i] = answer_of(answer_, queries, i, options);
     }
@@ -78,25 +68,10 @@ std::unique_ptr<fast::Method> method_of(fast::MethodInfo&& info, Function answer
 
 }  // namespace
 
-NearestRounding::NearestRounding() : callers_{} {
-  std::fegetenv(&callers_);
-  std::fesetenv(FE_DFL_ENV);
-}
-
-NearestRounding::~NearestRounding() { std::fesetenv(&callers_); }
-
 bool are_valid(const fast::MethodOptions& options) {
   return std::isfinite(options.tolerance) && options.tolerance > 0.0 &&
          std::isfinite(options.separation.distance) && options.separation.distance >= 0.0 &&
          options.t_max >= 0.0 && options.t_max <= 1.0;
-}
-
-Random random_of(const Query& query) {
-  std::uint64_t seed = Random::golden_ratio;
-  for (const double x : query.coordinates) {
-    seed = verify::generate::mix(seed ^ std::bit_cast<std::uint64_t>(x));
-  }
-  return Random(seed);
 }
 
 std::uint32_t to_checks(std::int64_t steps) {
@@ -117,9 +92,6 @@ double squared_distance_at(Kind kind, const Query& query, double t) {
 
 std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info, AnswerFunction answer) {
   return method_of(std::move(info), answer);
-}
-std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info, VerdictFunction collides) {
-  return method_of(std::move(info), collides);
 }
 std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info, AnyAnswerFunction answer) {
   return method_of(std::move(info), answer);

@@ -34,7 +34,7 @@
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/judge/separation_inference.hpp"
-#include "verify/solvers/registry.hpp"
+#include "verify/solvers/published.hpp"
 #include "verify/solvers/solver.hpp"
 #include "verify/view/query_files.hpp"
 
@@ -330,7 +330,7 @@ class FuzzRun {
           "fuzz needs exactly one solver: name it with --method or --plugin");
     }
     if (!solver.methods.empty()) {
-      method_ = &solvers::find_method(solver.methods.front());
+      method_ = &solvers::find_any(solver.methods.front());
       return;
     }
     plugin_ = solver.load(solver.plugins.front());

@@ -17,7 +17,7 @@
 #include "verify/io/number_text.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/report/step_report.hpp"
-#include "verify/solvers/registry.hpp"
+#include "verify/solvers/published.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -93,8 +93,8 @@ std::vector<OptionRow> make_table() {
       {"parts", "FILE.json", {}, "The JSON of all parts of a run (--shard I/N --json FILE.json)", "merge", required},
 
       // Solvers.
-      {"--method", "NAME", {}, "Only these; repeatable: " + solvers::method_names(), "report"},
-      {"--method", "NAME", {}, "Built-in solver; repeatable: " + solvers::method_names()},
+      {"--method", "NAME", {}, fmt::format("Only these; repeatable: {}", fmt::join(solvers::all_names(), ", ")), "report"},
+      {"--method", "NAME", {}, fmt::format("Built-in or published solver; repeatable: {}", fmt::join(solvers::all_names(), ", "))},
       {"--plugin", "LIB.so", {}, "Your solver: a shared library (touchstone/plugin.h); repeatable"},
       {"--answers-kinds", "KIND", kinds, "The plugin answers only these queries; repeatable"},
       {"--float-coordinates", "", {}, "The plugin takes float: round queries to float first, and judge by these"},

@@ -14,7 +14,7 @@
 #include "verify/io/number_text.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/solvers/registry.hpp"
+#include "verify/solvers/published.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -212,7 +212,7 @@ Solvers::Solvers(Files& files, const SolverArguments& arguments, MethodHost host
 }
 
 const fast::Method& Solvers::method_named(std::string_view name, const SolverArguments& arguments) {
-  const fast::Method& method = solvers::find_method(name);
+  const fast::Method& method = solvers::find_any(name);
   if (arguments.kernel == nullptr || name != fast::certified_info().name) return method;
   const fast::UseKernels use({.certified = arguments.kernel});
   methods_.push_back(fast::certified_method());

@@ -20,6 +20,7 @@
 #include "verify/jobs/timing.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
 #include "verify/report/stability.hpp"
+#include "verify/solvers/published.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::report {
@@ -117,7 +118,7 @@ Trial checks_trial(Methods methods) {
 
 std::vector<const fast::Method*> find_methods(std::span<const std::string> names) {
   std::vector<const fast::Method*> found;
-  for (const std::string& name : names) found.push_back(&solvers::find_method(name));
+  for (const std::string& name : names) found.push_back(&solvers::find_any(name));
   return found;
 }
 
@@ -150,8 +151,9 @@ class ExperimentRun {
       : groups_(groups), options_(options), methods_(find_methods(options.methods)) {
     if (options.budget > 0.0) deadline_ = base::Deadline(options.budget);
     if (!methods_.empty()) return;
-    for (const auto& method : solvers::methods()) {
-      if (is_asked(method->info().terms)) methods_.push_back(method.get());
+    for (const std::string& name : solvers::all_names()) {
+      const fast::Method& method = solvers::find_any(name);
+      if (is_asked(method.info().terms)) methods_.push_back(&method);
     }
   }
 

@@ -244,11 +244,15 @@ constexpr TouchstonePluginAnswer unanswered{.verdict = TOUCHSTONE_ERROR,
 class PluginMethod final : public fast::Method {
  public:
   PluginMethod(std::filesystem::path path, std::string state, std::string name,
-               const Stated& stated)
+               const Stated& stated, fast::MethodInfo known)
       : path_(std::move(path)),
         state_(std::move(state)),
         name_(std::move(name)),
-        info_{.name = name_, .promise = stated.promise, .terms = stated.terms} {}
+        info_(std::move(known)) {
+    info_.name = name_;
+    info_.promise = stated.promise;
+    info_.terms = stated.terms;
+  }
 
   [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
 
@@ -448,7 +452,7 @@ std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,
   Loading loading(library, absolute, options);
   std::string name = loading.name();
   return std::make_unique<PluginMethod>(std::move(absolute), std::move(state), std::move(name),
-                                        loading.stated());
+                                        loading.stated(), options.known);
 }
 
 }  // namespace touchstone::verify::solvers

@@ -37,6 +37,8 @@ struct TermsChanges {
 struct PluginOptions {
   /// Terms in place of those that the library states.
   TermsChanges terms = {};
+  /// What the interface does not say: norms, tolerance and usual limit of checks.
+  fast::MethodInfo known = {};
   /// Limits of the child process that asks for the name.
   ChildLimits limits = {};
   /// Wall-clock seconds that it may take.

@@ -25,18 +25,6 @@ constexpr auto factories = std::to_array<std::unique_ptr<fast::Method> (*)()>({
       return fast::tight_inclusion_method({.error_model = fast::ErrorModel::single_precision});
     },
     [] { return fast::tight_inclusion_method({.error_model = fast::ErrorModel::released}); },
-#ifndef __EMSCRIPTEN__  // WebAssembly has no rounding modes
-    baselines::irf_method,
-    baselines::uirf_method,
-    baselines::fprf_method,
-#endif
-    baselines::tccd_method,
-#ifndef __EMSCRIPTEN__
-    baselines::rp_method,
-    baselines::rrp_method,
-    baselines::bsc_method,
-#endif
-    baselines::msrf_method,
     baselines::accd_method,
     baselines::accd_limited_method,
     baselines::cubic_method,

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// All methods by their names on the command line. This is the only list of methods: a new one is
-/// judged, timed and named in the help once it is in the list. fast::MethodInfo describes each.
+/// The methods that are built in, by their names on the command line: a new one is judged, timed and
+/// named in the help once it is in the list. fast::MethodInfo describes each.
 
 #include <memory>
 #include <span>
@@ -15,7 +15,7 @@
 
 namespace touchstone::verify::solvers {
 
-/// All methods, always in the same order; they live as long as the program.
+/// All of them, always in the same order; they live as long as the program.
 [[nodiscard]] const std::vector<std::unique_ptr<const fast::Method>>& methods();
 
 /// Their names, in their order, with commas.

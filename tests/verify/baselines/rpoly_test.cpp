@@ -1,5 +1,5 @@
 /// \file
-/// The zeros of polynomials, and where they are not negative or not positive.
+/// The zeros of polynomials.
 
 #include "verify/baselines/rpoly.hpp"
 
@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "tests/support/random.hpp"
-#include "verify/baselines/sign_intervals.hpp"
 
 namespace touchstone::baselines::rpoly_test {
 namespace {
@@ -88,55 +87,6 @@ TEST(Rpoly, EndsOnCoefficientsOfAllMagnitudes) {
     std::ranges::generate(coefficients, [&] { return random.finite_double(); });
     EXPECT_LE(zeros_of(coefficients).count, 6U);
   }
-}
-
-using Intervals = std::vector<TimeInterval>;
-
-bool are_near(const Intervals& a, const Intervals& b) {
-  return std::ranges::equal(a, b, [](const TimeInterval& x, const TimeInterval& y) {
-    return std::abs(x.from - y.from) < 1e-12 && std::abs(x.to - y.to) < 1e-12;
-  });
-}
-
-TEST(SignIntervals, OfPolynomials) {
-  struct Row {
-    const char* name;
-    std::vector<double> coefficients;
-    Intervals not_negative, not_positive;
-  };
-  const Intervals all{{0, 1}}, none;
-  const std::vector<Row> rows{
-      {"positive", {2.0}, all, none},
-      {"negative", {-2.0}, none, all},
-      {"zero", {0.0, 0.0, 0.0}, all, all},
-      {"leading zeros are left out", {0.0, 0.0, 3.0}, all, none},
-      {"a zero inside", {2.0, -1.0}, {{0.5, 1}}, {{0, 0.5}}},
-      {"a zero before", {1.0, 1.0}, all, none},
-      {"a zero after", {1.0, -2.0}, none, all},
-      {"of no length", {1.0, -1.0}, {{1, 1}}, {{0, 1}, {1, 1}}},
-      {"two zeros", {16.0, -16.0, 3.0}, {{0, 0.25}, {0.75, 1}}, {{0.25, 0.75}}},
-      {"a double zero", {4.0, -4.0, 1.0}, {{0, 0.5}, {0.5, 0.5}, {0.5, 1}}, {{0.5, 0.5}}},
-      {"small", {4e-300, -4e-300, 1e-300}, {{0, 0.5}, {0.5, 0.5}, {0.5, 1}}, {{0.5, 0.5}}},
-      {"large", {4e300, -4e300, 1e300}, {{0, 0.5}, {0.5, 0.5}, {0.5, 1}}, {{0.5, 0.5}}},
-      {"no zeros", {1.0, 0.0, 1.0}, all, none},
-      {"three zeros",
-       {64.0, -96.0, 44.0, -6.0},
-       {{0.25, 0.5}, {0.75, 1}},
-       {{0, 0.25}, {0.5, 0.75}}},
-      // ((t − 1/2)² + 1)(t + 1)
-      {"complex zeros cut", {1.0, 0.0, 0.25, 1.25}, {{0, 0.5}, {0.5, 0.5}, {0.5, 1}}, none}};
-  for (const Row& row : rows) {
-    EXPECT_TRUE(
-        are_near(sign_intervals(row.coefficients, WantedSign::not_negative), row.not_negative))
-        << row.name;
-    EXPECT_TRUE(
-        are_near(sign_intervals(row.coefficients, WantedSign::not_positive), row.not_positive))
-        << row.name;
-  }
-  // All that helps is not enough, and a square without anything else is its zero alone.
-  const std::vector<double> negative{1.0, 1.0, -9.0, -2.5}, square{1.0, 0.0, 0.0};
-  EXPECT_EQ(sign_intervals(negative, WantedSign::not_negative), none);
-  EXPECT_EQ(sign_intervals(square, WantedSign::not_negative), (Intervals{{0, 0}}));
 }
 
 }  // namespace

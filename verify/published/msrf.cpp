@@ -9,7 +9,7 @@
 // edges only the lines' equation is solved. All computations are in double precision, without
 // error bounds.
 //
-// h is the distance of fast::MethodOptions::separation, or 1e-8 if that is 0, as in the
+// h is the minimum separation, or 1e-8 if that is 0, as in the
 // benchmark's harness. It is Euclidean.
 //
 // **Promise.** None.
@@ -31,8 +31,6 @@
 //   - The time is a rounded zero, which at times is later than the contact; callers use it as a
 //     safe time, and it is reported as toi_lower.
 
-#include "verify/baselines/baselines.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,67 +39,19 @@
 #include "verify/baselines/method_support.hpp"
 #include "verify/baselines/moving_polynomials.hpp"
 #include "verify/baselines/rpoly.hpp"
+#include "verify/published/published.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::verify::published {
 namespace {
+
+using baselines::LinearMotion, baselines::Polynomial, baselines::VectorPolynomial;
 
 /// The value of h if no separation is requested.
 constexpr double default_separation = 1e-8;
 
-/// Candidate times, in the order of discovery.
-class CandidateTimes {
- public:
-  /// Adds the zeros in [0,1] that were computed as real.
-  template <std::size_t Degree>
-  void add_zeros(const Polynomial<Degree>& polynomial) {
-    const auto coefficients = descending(polynomial);
-    const auto left = without_leading_zeros(coefficients);
-    if (left.empty()) return;
-    for (const Zero& zero : zeros_of(left)) {
-      if (zero.im == 0.0 && zero.re >= 0.0 && zero.re <= 1.0) times_.push_back(zero.re);
-    }
-  }
-
-  /// Adds those of the squared distance of q and the plane of e and g, less h² (times what e × g is
-  /// squared).
-  void add_plane(const LinearMotion& q, const LinearMotion& e, const LinearMotion& g, double h) {
-    const VectorPolynomial<2> normal = cross(e, g);
-    const Polynomial<3> f = dot(q, normal);
-    const Polynomial<6> distance = f * f - (h * h) * squared_norm(normal);
-    if (!msrf_rules_out_zeros(distance.c)) add_zeros(distance);
-  }
-
-  [[nodiscard]] const std::vector<double>& times() const { return times_; }
-
- private:
-  std::vector<double> times_;
-};
-
-CandidateTimes vertex_face_candidates(const Query& query, double h) {
-  const auto [p, v1, v2, v3] = motions_of(query);
-  CandidateTimes candidates;
-  candidates.add_plane(p - v1, v2 - v1, v3 - v1, h);
-  const std::array<LinearMotion, 3> face{v1, v2, v3};
-  const Polynomial<0> square{{h * h}};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const LinearMotion to_vertex = p - face[i];
-    const LinearMotion edge = face[(i + 1) % 3] - face[i];
-    candidates.add_zeros(squared_norm(to_vertex) - square);
-    candidates.add_zeros(squared_norm(cross(to_vertex, edge)) - square * squared_norm(edge));
-  }
-  return candidates;
-}
-
-CandidateTimes edge_edge_candidates(const Query& query, double h) {
-  const auto [a0, a1, b0, b1] = motions_of(query);
-  CandidateTimes candidates;
-  candidates.add_plane(b1 - a0, a1 - a0, b1 - b0, h);
-  return candidates;
-}
-
-}  // namespace
-
-bool msrf_rules_out_zeros(std::span<const double, 7> c) {
+/// The quick tests before the polynomial of degree 6 is solved: true if it has no zero in [0,1] by
+/// its coefficients, the constant first; sometimes wrong, as above.
+bool rules_out_zeros(std::span<const double, 7> c) {
   const auto is_negative = [](double x) { return x < 0.0; };
   if (std::ranges::none_of(c, is_negative) || std::ranges::all_of(c, is_negative)) return true;
   const auto magnitude_from = [&](std::size_t first) {
@@ -123,23 +73,71 @@ bool msrf_rules_out_zeros(std::span<const double, 7> c) {
   return false;
 }
 
-fast::Answer msrf(Kind kind, const Query& query, const fast::MethodOptions& options) {
-  const double h =
-      options.separation.distance > 0.0 ? options.separation.distance : default_separation;
+/// Candidate times, in the order of discovery.
+class CandidateTimes {
+ public:
+  /// Adds the zeros in [0,1] that were computed as real.
+  template <std::size_t Degree>
+  void add_zeros(const Polynomial<Degree>& polynomial) {
+    const auto coefficients = descending(polynomial);
+    const auto left = baselines::without_leading_zeros(coefficients);
+    if (left.empty()) return;
+    for (const baselines::Zero& zero : baselines::zeros_of(left)) {
+      if (zero.im == 0.0 && zero.re >= 0.0 && zero.re <= 1.0) times_.push_back(zero.re);
+    }
+  }
+
+  /// Adds those of the squared distance of q and the plane of e and g, less h² (times what e × g is
+  /// squared).
+  void add_plane(const LinearMotion& q, const LinearMotion& e, const LinearMotion& g, double h) {
+    const VectorPolynomial<2> normal = cross(e, g);
+    const Polynomial<3> f = dot(q, normal);
+    const Polynomial<6> distance = f * f - (h * h) * squared_norm(normal);
+    if (!rules_out_zeros(distance.c)) add_zeros(distance);
+  }
+
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+
+ private:
+  std::vector<double> times_;
+};
+
+CandidateTimes vertex_face_candidates(const Query& query, double h) {
+  const auto [p, v1, v2, v3] = baselines::motions_of(query);
+  CandidateTimes candidates;
+  candidates.add_plane(p - v1, v2 - v1, v3 - v1, h);
+  const std::array<LinearMotion, 3> face{v1, v2, v3};
+  const Polynomial<0> square{{h * h}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const LinearMotion to_vertex = p - face[i];
+    const LinearMotion edge = face[(i + 1) % 3] - face[i];
+    candidates.add_zeros(squared_norm(to_vertex) - square);
+    candidates.add_zeros(squared_norm(cross(to_vertex, edge)) - square * squared_norm(edge));
+  }
+  return candidates;
+}
+
+CandidateTimes edge_edge_candidates(const Query& query, double h) {
+  const auto [a0, a1, b0, b1] = baselines::motions_of(query);
+  CandidateTimes candidates;
+  candidates.add_plane(b1 - a0, a1 - a0, b1 - b0, h);
+  return candidates;
+}
+
+}  // namespace
+
+Answer msrf(Kind kind, const Query& query, const TouchstonePluginOptions& options) {
+  const double h = options.min_separation > 0.0 ? options.min_separation : default_separation;
   const CandidateTimes candidates =
       kind == Kind::vertex_face ? vertex_face_candidates(query, h) : edge_edge_candidates(query, h);
   constexpr double never = 2.0;
   double earliest = never;
   for (const double t : candidates.times()) {
-    const double s = squared_distance_at(kind, query, t);
+    const double s = baselines::squared_distance_at(kind, query, t);
     if (t < earliest && std::abs(s) <= h * h + 0.1 * h) earliest = t;
   }
-  if (earliest == never || earliest > options.t_max) return {.verdict = fast::Verdict::no};
-  return {.verdict = fast::Verdict::yes, .toi_lower = earliest};
+  if (earliest == never || earliest > options.t_max) return {};
+  return {TOUCHSTONE_YES, earliest};
 }
 
-std::unique_ptr<fast::Method> msrf_method() {
-  return baseline_method({.name = "msrf", .reference = "harmon2011", .norms = {Norm::l2}}, msrf);
-}
-
-}  // namespace touchstone::baselines
+}  // namespace touchstone::verify::published

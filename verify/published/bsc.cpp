@@ -27,26 +27,24 @@
 //
 // **Promise.** None.
 
-#include "verify/baselines/baselines.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <stdexcept>
 
-#include "verify/baselines/bernstein.hpp"
-#include "verify/baselines/exact_number.hpp"
-#include "verify/baselines/method_support.hpp"
-#include "verify/baselines/upward_interval.hpp"
+#include "verify/published/bernstein.hpp"
+#include "verify/published/exact_number.hpp"
+#include "verify/published/published.hpp"
+#include "verify/published/upward_interval.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::verify::published {
 namespace {
 
 /// The quick no: true if every coefficient of Y is beyond a fixed threshold on one side.
 bool is_clearly_apart(Kind kind, const Query& query) {
   constexpr double threshold = 100 * 0x1p-52;
-  const auto points = baselines::moving_points_of<double>(kind, query);
-  const auto products = baselines::coplanarity_products(points, baselines::normal_of(points));
+  const auto points = moving_points_of<double>(kind, query);
+  const auto products = coplanarity_products(points, normal_of(points));
   return std::ranges::all_of(products, [](double x) { return x > threshold; }) ||
          std::ranges::all_of(products, [](double x) { return x < -threshold; });
 }
@@ -137,31 +135,27 @@ class SignClassification {
 
 /// Not inlined: its arithmetic must stay where the rounding mode is upward.
 [[gnu::noinline]] bool collides_in_intervals(Kind kind, const Query& query) {
-  const auto points = baselines::moving_points_of<UpwardInterval>(kind, query);
+  const auto points = moving_points_of<UpwardInterval>(kind, query);
   return SignClassification(kind, points).collides();
 }
 
 bool collides_exactly(Kind kind, const Query& query) {
   // Doubled once, products are multiples of 4 and halves of sums of them are integers.
-  const auto coordinates = baselines::scaled_to_integers(query.coordinates, 1);
-  const auto points = baselines::moving_points_of(kind, coordinates);
+  const auto coordinates = scaled_to_integers(query.coordinates, 1);
+  const auto points = moving_points_of(kind, coordinates);
   return SignClassification(kind, points).collides();
 }
 
 }  // namespace
 
-bool bsc_collides(Kind kind, const Query& query) {
-  if (is_clearly_apart(kind, query)) return false;
+Answer bsc(Kind kind, const Query& query, const TouchstonePluginOptions& /*options*/) {
+  if (is_clearly_apart(kind, query)) return yes_if(false);
   bool collides = false;
   {
-    const UpwardRounding upward;
+    const RoundingMode upward(FE_UPWARD);
     collides = collides_in_intervals(kind, query);
   }
-  return collides || collides_exactly(kind, query);
+  return yes_if(collides || collides_exactly(kind, query));
 }
 
-std::unique_ptr<fast::Method> bsc_method() {
-  return baseline_method({.name = "bsc", .reference = "tang2014"}, bsc_collides);
-}
-
-}  // namespace touchstone::baselines
+}  // namespace touchstone::verify::published

@@ -13,7 +13,7 @@
 
 #include <cmath>
 
-namespace touchstone::baselines {
+namespace touchstone::verify::published {
 
 /// value ± bound.
 struct ErrorBounded {
@@ -47,4 +47,4 @@ struct ErrorBounded {
   friend ErrorBounded half(const ErrorBounded& a) { return a * 0.5; }
 };
 
-}  // namespace touchstone::baselines
+}  // namespace touchstone::verify::published

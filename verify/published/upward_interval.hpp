@@ -2,7 +2,7 @@
 
 /// \file
 /// Intervals whose lower end is stored negated, so that one rounding mode, upward, serves both ends
-/// ([brochu2012], [tang2014]).
+/// ([brochu2012], [tang2014]); also those of IRF and UIRF.
 ///
 /// **Theorem.** Under upward rounding the result of an operation holds every result of it on
 /// numbers of the operands, also where ends overflow or underflow: −lower and upper are each
@@ -10,11 +10,16 @@
 /// −∞, so sums are never NaN; a product is where an end 0 meets an infinite one, and there the
 /// bound is 0 since the numbers themselves are finite.
 ///
-/// The rounding mode is the caller's duty: UpwardRounding.
+/// The rounding mode is the caller's duty: RoundingMode.
 
 #include <algorithm>
+#include <cfenv>
 
-namespace touchstone::baselines {
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
+namespace touchstone::verify::published {
 
 /// The numbers from −minus_lower to upper.
 struct UpwardInterval {
@@ -72,23 +77,42 @@ struct UpwardInterval {
   }
 };
 
-/// While it lives, this thread rounds towards +∞; then the mode before it is back, also where an
-/// exception ended its life. (BSC's published code forgets that, bsc.cpp.)
+/// While it lives, this thread rounds in another mode; then the mode before it is back, also where
+/// an exception ended its life. (BSC's published code forgets that, bsc.cpp.)
 ///
 /// The compiler knows of no mode, and may move arithmetic across the guard within a function. So
 /// the arithmetic belongs in a function that is called, and not inlined, while the guard lives, and
 /// in a file compiled with -frounding-math.
-class UpwardRounding {
+class RoundingMode {
  public:
-  UpwardRounding();
-  ~UpwardRounding();
-  UpwardRounding(const UpwardRounding&) = delete;
-  UpwardRounding& operator=(const UpwardRounding&) = delete;
-  UpwardRounding(UpwardRounding&&) = delete;
-  UpwardRounding& operator=(UpwardRounding&&) = delete;
+  /// \param mode FE_UPWARD or FE_TONEAREST
+  explicit RoundingMode(int mode) : callers_(current()) { set(mode); }
+  ~RoundingMode() { set(callers_); }
+  RoundingMode(const RoundingMode&) = delete;
+  RoundingMode& operator=(const RoundingMode&) = delete;
+  RoundingMode(RoundingMode&&) = delete;
+  RoundingMode& operator=(RoundingMode&&) = delete;
 
  private:
+#ifdef __SSE2__
+  // std::fesetround sets the old floating-point unit too, which costs more than a query.
+  static int current() { return static_cast<int>(_MM_GET_ROUNDING_MODE() >> 3U); }
+  static void set(int mode) { _MM_SET_ROUNDING_MODE(static_cast<unsigned>(mode) << 3U); }
+#else
+  static int current() { return std::fegetround(); }
+  static void set(int mode) { std::fesetround(mode); }
+#endif
+
   int callers_;
 };
 
-}  // namespace touchstone::baselines
+/// The middle of an interval, rounded to nearest in any mode.
+[[nodiscard, gnu::noinline]] inline double middle_of(const UpwardInterval& x) {
+  const RoundingMode nearest(FE_TONEAREST);
+  // Read and written where the mode is set.
+  const volatile double lower = -x.minus_lower, upper = x.upper;
+  const volatile double middle = (lower + upper) / 2.0;
+  return middle;
+}
+
+}  // namespace touchstone::verify::published

@@ -38,17 +38,15 @@
 // **Promise.** None, for these reasons. The reading of an uninitialised sign (both ends of the
 // derivative unknown) is not reproduced: the signs there follow from the curvature.
 
-#include "verify/baselines/baselines.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
 
-#include "verify/baselines/bernstein.hpp"
-#include "verify/baselines/error_bounded.hpp"
-#include "verify/baselines/method_support.hpp"
+#include "verify/published/bernstein.hpp"
+#include "verify/published/error_bounded.hpp"
+#include "verify/published/published.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::verify::published {
 namespace {
 
 using Number = ErrorBounded;
@@ -200,7 +198,7 @@ bool has_contact_beside_inflection(const Cubic& k, const Inside& inside) {
   Parts<3> cubics = subdivided<3>(k, n, q);
   const auto crosses = [&](Cubic& part, auto pick) {
     if (q.sign() < 0) std::ranges::transform(part, part.begin(), std::negate<>());
-    const Course course = baselines::has_lone_end(part, certainly_opposite)
+    const Course course = has_lone_end(part, certainly_opposite)
                               ? Course::monotone
                               : course_without_inflection(part, possibly_opposite);
     const auto inside_part = [&](std::size_t i) { return subdivided<4>(inside(i), n, q).*pick; };
@@ -210,7 +208,7 @@ bool has_contact_beside_inflection(const Cubic& k, const Inside& inside) {
 }
 
 bool tccd_collides(Kind kind, const Query& query) {
-  const auto points = baselines::moving_points_of<Number>(kind, query);
+  const auto points = moving_points_of<Number>(kind, query);
   const auto normal = normal_of(points);
   const Cubic k = coplanarity(points, normal);
   const auto all_have = [&](int sign) {
@@ -219,7 +217,7 @@ bool tccd_collides(Kind kind, const Query& query) {
   if (all_have(1) || all_have(-1)) return false;
   const Course course = course_of(k, certainly_opposite, possibly_opposite);
   const auto inside = [&](std::size_t i) -> Quartic {
-    return baselines::inside(kind, points, normal, i);
+    return published::inside(kind, points, normal, i);
   };
   return course == Course::inflection ? has_contact_beside_inflection(k, inside)
                                       : has_contact(k, inside, course);
@@ -227,8 +225,8 @@ bool tccd_collides(Kind kind, const Query& query) {
 
 }  // namespace
 
-std::unique_ptr<fast::Method> tccd_method() {
-  return baseline_method({.name = "tccd", .reference = "wang2015"}, tccd_collides);
+Answer tccd(Kind kind, const Query& query, const TouchstonePluginOptions& /*options*/) {
+  return yes_if(tccd_collides(kind, query));
 }
 
-}  // namespace touchstone::baselines
+}  // namespace touchstone::verify::published

@@ -19,7 +19,7 @@
 #include "fast/certified/exact/big_integer.hpp"
 #include "fast/certified/exact/enclosing_doubles.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::verify::published {
 
 /// An integer of any size.
 class ExactNumber {
@@ -97,4 +97,4 @@ template <std::size_t count>
   return result;
 }
 
-}  // namespace touchstone::baselines
+}  // namespace touchstone::verify::published

@@ -1,4 +1,4 @@
-#include "verify/baselines/sign_intervals.hpp"
+#include "verify/published/sign_intervals.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,12 +8,12 @@
 #include "verify/baselines/moving_polynomials.hpp"
 #include "verify/baselines/rpoly.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::verify::published {
 namespace {
 
 /// Real parts of zeros, ascending.
 struct Breaks {
-  std::array<double, most_zeros> t;
+  std::array<double, baselines::most_zeros> t;
   std::size_t count = 0;
 
   void add(double value) { t[count++] = value; }
@@ -30,7 +30,7 @@ class SignSearch {
     for (const double c : coefficients) {
       c_[size_++] = sign == WantedSign::not_negative ? c / scale : -c / scale;
     }
-    const auto left = without_leading_zeros({c_.data(), size_});
+    const auto left = baselines::without_leading_zeros({c_.data(), size_});
     std::copy(left.begin(), left.end(), c_.begin());
     size_ = left.size();
   }
@@ -66,7 +66,8 @@ class SignSearch {
       breaks_.add(second < first ? second : first);
       breaks_.add(second < first ? first : second);
     } else {
-      for (const Zero& zero : zeros_of({c_.data(), size_})) breaks_.add(zero.re);
+      for (const baselines::Zero& zero : baselines::zeros_of({c_.data(), size_}))
+        breaks_.add(zero.re);
       breaks_.sort();
     }
   }
@@ -99,7 +100,7 @@ class SignSearch {
     return result;
   }
 
-  std::array<double, most_zeros + 1> c_{};  ///< the highest power's first
+  std::array<double, baselines::most_zeros + 1> c_{};  ///< the highest power's first
   std::size_t size_ = 0;
   Breaks breaks_;
 };
@@ -110,4 +111,4 @@ std::vector<TimeInterval> sign_intervals(std::span<const double> coefficients, W
   return SignSearch(coefficients, sign).run();
 }
 
-}  // namespace touchstone::baselines
+}  // namespace touchstone::verify::published

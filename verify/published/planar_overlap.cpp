@@ -1,9 +1,9 @@
-#include "verify/baselines/planar_overlap.hpp"
+#include "verify/published/planar_overlap.hpp"
 
 #include <algorithm>
 #include <cstddef>
 
-namespace touchstone::baselines {
+namespace touchstone::verify::published {
 namespace {
 
 using Point = std::array<ExactNumber, 2>;
@@ -106,4 +106,4 @@ PlanarOverlap planar_overlap(const std::array<ExactPoint, 2>& segment,
   return result;
 }
 
-}  // namespace touchstone::baselines
+}  // namespace touchstone::verify::published

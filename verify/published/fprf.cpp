@@ -6,8 +6,8 @@
 // negative while the vertex is inside the face, or the nearest points are inside the edges. The
 // times at which each has its sign are found as intervals (sign_intervals.hpp); their
 // intersection, if not empty, is a collision at its earliest time. All computations are in double
-// precision, without error bounds. η is the distance of fast::MethodOptions::separation; it is
-// Euclidean, and 0 in the paper's table 1.
+// precision, without error bounds. η is the minimum separation; it is Euclidean, and 0 in the
+// paper's table 1.
 //
 // **Promise.** None.
 //
@@ -31,8 +31,6 @@
 //   - The time is a rounded zero, which at times is later than the contact (on the public data one
 //     answer in ten); callers use it as a safe time, and it is reported as toi_lower.
 
-#include "verify/baselines/baselines.hpp"
-
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -43,14 +41,16 @@
 
 #include "verify/baselines/method_support.hpp"
 #include "verify/baselines/moving_polynomials.hpp"
-#include "verify/baselines/sign_intervals.hpp"
+#include "verify/published/published.hpp"
+#include "verify/published/sign_intervals.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::verify::published {
 namespace {
 
 /// The length of a product of edges below which they count as parallel, at any scale.
 constexpr double parallel_product = 1e-8;
 
+using baselines::LinearMotion, baselines::Polynomial, baselines::VectorPolynomial;
 using Intervals = std::vector<TimeInterval>;
 
 template <std::size_t Degree>
@@ -116,7 +116,7 @@ std::optional<double> earliest_overlap(std::span<const Intervals> lists, const I
 }
 
 std::optional<double> vertex_face_time(const Query& query, double eta) {
-  const auto [p, v1, v2, v3] = motions_of(query);
+  const auto [p, v1, v2, v3] = baselines::motions_of(query);
   std::array<Intervals, 4> lists;
   lists[0] = not_negative(edge_side(p, v1, v3 - v1, v2 - v1));
   if (lists[0].empty()) return std::nullopt;
@@ -130,13 +130,15 @@ std::optional<double> vertex_face_time(const Query& query, double eta) {
 
 /// True if the edges are parallel at that time.
 bool are_parallel(const Query& query, double t) {
-  const Eigen::Vector3d a = position_at(query, 0, t) - position_at(query, 1, t);
-  const Eigen::Vector3d b = position_at(query, 2, t) - position_at(query, 3, t);
+  const Eigen::Vector3d a =
+      baselines::position_at(query, 0, t) - baselines::position_at(query, 1, t);
+  const Eigen::Vector3d b =
+      baselines::position_at(query, 2, t) - baselines::position_at(query, 3, t);
   return a.cross(b).norm() < parallel_product;
 }
 
 std::optional<double> edge_edge_time(const Query& query, double eta) {
-  const auto [a0, a1, b0, b1] = motions_of(query);
+  const auto [a0, a1, b0, b1] = baselines::motions_of(query);
   std::array<Intervals, 5> lists;
   Intervals parallel;
   for (const TimeInterval& near : near_plane(a1 - b1, a1 - a0, b1 - b0, eta)) {
@@ -150,18 +152,14 @@ std::optional<double> edge_edge_time(const Query& query, double eta) {
   return earliest_overlap(lists, parallel);
 }
 
-fast::Answer fprf(Kind kind, const Query& query, const fast::MethodOptions& options) {
-  const double eta = options.separation.distance;
-  const auto time =
-      kind == Kind::vertex_face ? vertex_face_time(query, eta) : edge_edge_time(query, eta);
-  if (!time || *time > options.t_max) return {.verdict = fast::Verdict::no};
-  return {.verdict = fast::Verdict::yes, .toi_lower = *time};
-}
-
 }  // namespace
 
-std::unique_ptr<fast::Method> fprf_method() {
-  return baseline_method({.name = "fprf", .reference = "provot1997", .norms = {Norm::l2}}, fprf);
+Answer fprf(Kind kind, const Query& query, const TouchstonePluginOptions& options) {
+  const double eta = options.min_separation;
+  const auto time =
+      kind == Kind::vertex_face ? vertex_face_time(query, eta) : edge_edge_time(query, eta);
+  if (!time || *time > options.t_max) return {};
+  return {TOUCHSTONE_YES, *time};
 }
 
-}  // namespace touchstone::baselines
+}  // namespace touchstone::verify::published

@@ -14,23 +14,20 @@
 //     u + v = 1 of a face, δ/16 away.)
 //   - With rotating dimensions that box need not be the earliest: its time bounds nothing, so
 //     answers have none.
-//   - Only fast::MethodOptions::max_checks bounds the work: after that number of boxes the answer
-//     is undecided, with max_checks as `checks`. Motion in a plane takes longest if the primitives
+//   - Only max_checks bounds the work: after that number of boxes the answer is undecided. Motion
+//   in a plane takes longest if the primitives
 //     barely avoid a contact.
 //   - It does not support a minimum separation: queries that only come within one are false
 //     negatives.
-
-#include "verify/baselines/baselines.hpp"
 
 #include <algorithm>
 #include <array>
 
 #include "touchstone/mesh.hpp"
-#include "verify/baselines/interval_search.hpp"
-#include "verify/baselines/intervals.hpp"
-#include "verify/baselines/method_support.hpp"
+#include "verify/published/interval_search.hpp"
+#include "verify/published/published.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::verify::published {
 namespace {
 
 using Box = ParameterBox<3>;
@@ -44,32 +41,31 @@ double greatest_length(const Query& query, std::size_t from, std::size_t to) {
 /// F of a query, in intervals.
 class ContactFunction {
  public:
-  ContactFunction(Kind kind, const Query& query) : kind_(kind), motion_(query) {}
+  ContactFunction(Kind kind, const Query& query) : kind_(kind), query_(query) {}
 
   [[nodiscard]] bool may_vanish(const Box& box) const {
     const auto [t, u, v] = box;
-    const auto [a, b, c, d] = motion_.at(t);
+    const auto [a, b, c, d] = points_at(query_, t);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Interval f =
+      const UpwardInterval f =
           kind_ == Kind::vertex_face
               ? a[axis] - (b[axis] + u * (c[axis] - b[axis]) + v * (d[axis] - b[axis]))
               : ((b[axis] - a[axis]) * u + a[axis]) - ((d[axis] - c[axis]) * v + c[axis]);
-      if (!may_be_zero(f)) return false;
+      if (f.sign() != 0) return false;
     }
     return true;
   }
 
   /// True if the box contains a point with u + v ≤ 1.
   [[nodiscard]] bool reaches_domain(const Box& box) const {
-    return kind_ == Kind::edge_edge ||
-           (Interval(box[1].lower()) + Interval(box[2].lower())).lower() <= 1.0;
+    return kind_ == Kind::edge_edge || box[1].minus_lower + box[2].minus_lower >= -1.0;
   }
 
   [[nodiscard]] static bool accepts(const Box& /*box*/) { return true; }
 
  private:
   Kind kind_;
-  IntervalMotion motion_;
+  const Query& query_;
 };
 
 /// δ divided by the greatest change of F for a unit of the parameter. Infinite without a change:
@@ -81,23 +77,20 @@ std::array<double, 3> parameter_tolerances(Kind kind, const Query& query, double
           tolerance / greatest_length(query, is_face ? 1 : 2, 3)};
 }
 
-fast::Answer irf(Kind kind, const Query& query, const fast::MethodOptions& options) {
-  const Box domain{Interval(0.0, options.t_max), Interval(0.0, 1.0), Interval(0.0, 1.0)};
-  const auto found =
-      search_box(ContactFunction(kind, query), domain,
-                 parameter_tolerances(kind, query, options.tolerance), options.max_checks);
-  return {.verdict = found.verdict, .checks = to_checks(found.checks)};
+/// Not inlined: its arithmetic must stay where the rounding mode is upward.
+[[gnu::noinline]] TouchstoneVerdict search(Kind kind, const Query& query,
+                                           const std::array<double, 3>& tolerances,
+                                           const TouchstonePluginOptions& options) {
+  const Box domain{{{-0.0, options.t_max}, {-0.0, 1.0}, {-0.0, 1.0}}};
+  return search_box(ContactFunction(kind, query), domain, tolerances, options.max_checks).verdict;
 }
 
 }  // namespace
 
-std::unique_ptr<fast::Method> irf_method() {
-  return baseline_method({.name = "irf",
-                          .promise = fast::Promise::conservative,
-                          .reference = "snyder1992",
-                          .is_tolerance_driven = true,
-                          .usual_max_checks = 100'000},
-                         irf);
+Answer irf(Kind kind, const Query& query, const TouchstonePluginOptions& options) {
+  const auto tolerances = parameter_tolerances(kind, query, options.tolerance);
+  const RoundingMode upward(FE_UPWARD);
+  return {search(kind, query, tolerances, options)};
 }
 
-}  // namespace touchstone::baselines
+}  // namespace touchstone::verify::published

@@ -27,7 +27,7 @@
 
 #include "touchstone/query.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::verify::published {
 
 /// The functions of the number types, for doubles.
 [[nodiscard]] inline double half(double x) { return 0.5 * x; }
@@ -227,4 +227,4 @@ template <class Number, class Certainly, class Possibly>
   return course_without_inflection(k, possibly);
 }
 
-}  // namespace touchstone::baselines
+}  // namespace touchstone::verify::published

@@ -14,9 +14,9 @@
 
 #include <array>
 
-#include "verify/baselines/exact_number.hpp"
+#include "verify/published/exact_number.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::verify::published {
 
 using ExactPoint = std::array<ExactNumber, 3>;
 
@@ -32,4 +32,4 @@ struct PlanarOverlap {
 [[nodiscard]] PlanarOverlap planar_overlap(const std::array<ExactPoint, 2>& segment,
                                            const std::array<ExactPoint, 3>& triangle);
 
-}  // namespace touchstone::baselines
+}  // namespace touchstone::verify::published

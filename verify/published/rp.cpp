@@ -30,8 +30,6 @@
 //
 // **Promise.** None. The directions are drawn from a generator seeded with the query.
 
-#include "verify/baselines/baselines.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,12 +39,12 @@
 #include <span>
 #include <stdexcept>
 
-#include "verify/baselines/exact_number.hpp"
-#include "verify/baselines/method_support.hpp"
-#include "verify/baselines/planar_overlap.hpp"
-#include "verify/baselines/upward_interval.hpp"
+#include "verify/published/exact_number.hpp"
+#include "verify/published/planar_overlap.hpp"
+#include "verify/published/published.hpp"
+#include "verify/published/upward_interval.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::verify::published {
 namespace {
 
 using Interval = UpwardInterval;
@@ -212,7 +210,7 @@ class Try {
     const std::span<const ExactPoint> x = exact().corners;
     const std::array<ExactPoint, 2> origin{};
     const auto holds = [&](std::size_t i, std::size_t j, std::size_t k) {
-      return baselines::planar_overlap(origin, {x[q[i]], x[q[j]], x[q[k]]}).overlaps;
+      return planar_overlap(origin, {x[q[i]], x[q[j]], x[q[k]]}).overlaps;
     };
     return holds(0, 1, 2) || holds(0, 1, 3) || holds(0, 2, 3) || holds(1, 2, 3);
   }
@@ -250,8 +248,8 @@ class Try {
 
   Crossing cross_in_plane(const Triangle& t) {
     const auto& [unit, x, end] = exact();
-    const auto found = baselines::planar_overlap({ExactPoint{}, {end[0], end[1], ExactNumber()}},
-                                                 {x[t[0]], x[t[1]], x[t[2]]});
+    const auto found = planar_overlap({ExactPoint{}, {end[0], end[1], ExactNumber()}},
+                                      {x[t[0]], x[t[1]], x[t[2]]});
     return {found.overlaps, found.segment_weights[0], found.triangle_weights};
   }
 
@@ -295,9 +293,8 @@ class Try {
   const Exact& exact() {
     if (exact_) return *exact_;
     const std::array end{end_.x, end_.y};
-    const int unit =
-        std::min(baselines::common_exponent(query_.coordinates), baselines::common_exponent(end));
-    const auto scaled = [&](double x) { return baselines::scaled_to_integer(x, unit); };
+    const int unit = std::min(common_exponent(query_.coordinates), common_exponent(end));
+    const auto scaled = [&](double x) { return scaled_to_integer(x, unit); };
     exact_ = Exact{unit, {}, {scaled(end_.x), scaled(end_.y)}};
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       const auto& [at, plus, minus] = boundary_.corners[i];
@@ -385,7 +382,7 @@ bool has_odd_crossings(const Query& query, const Boundary& boundary,
   constexpr int most_tries = 10;
   const double reach = reach_of(corners), length = reach * std::numbers::sqrt2;
   if (!std::isfinite(length)) throw std::overflow_error("rp: the segment's end is out of range");
-  Random random = random_of(query);
+  auto random = random_of(query);
   SegmentEnd end{reach, reach};
   for (int i = 0; i < most_tries; ++i) {
     switch (Try(query, boundary, corners, end).run()) {
@@ -421,13 +418,9 @@ bool has_odd_crossings(const Query& query, const Boundary& boundary,
 
 }  // namespace
 
-bool rp_collides(Kind kind, const Query& query) {
-  const UpwardRounding upward;
-  return collides_by_parity(kind, query);
+Answer rp(Kind kind, const Query& query, const TouchstonePluginOptions& /*options*/) {
+  const RoundingMode upward(FE_UPWARD);
+  return yes_if(collides_by_parity(kind, query));
 }
 
-std::unique_ptr<fast::Method> rp_method() {
-  return baseline_method({.name = "rp", .reference = "brochu2012"}, rp_collides);
-}
-
-}  // namespace touchstone::baselines
+}  // namespace touchstone::verify::published

@@ -1,5 +1,4 @@
 // RRP: rational root parity, after [brochu2012] with degenerate patches handled ([wang2021]).
-// In verify/ because its numbers are GMP's.
 //
 // **Algorithm.** As RP (rp.cpp), the crossings of a ray from 0 with the image of
 // the domain's boundary are counted, everything in rationals. A flat patch is replaced by the
@@ -23,8 +22,6 @@
 //
 // **Promise.** None. The directions are drawn from a generator seeded with the query.
 
-#include "verify/baselines/baselines.hpp"
-
 #include <gmpxx.h>
 
 #include <algorithm>
@@ -34,11 +31,12 @@
 #include <span>
 #include <vector>
 
-#include "verify/baselines/method_support.hpp"
+#include "verify/published/published.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::verify::published {
 namespace {
 
+using generate::Random;
 using Rational = mpq_class;
 using Point = std::array<Rational, 3>;
 using Triangle = std::array<Point, 3>;
@@ -269,8 +267,8 @@ bool rrp_collides(Kind kind, const Query& query) {
 
 }  // namespace
 
-std::unique_ptr<fast::Method> rrp_method() {
-  return baseline_method({.name = "rrp", .reference = "brochu2012"}, rrp_collides);
+Answer rrp(Kind kind, const Query& query, const TouchstonePluginOptions& /*options*/) {
+  return yes_if(rrp_collides(kind, query));
 }
 
-}  // namespace touchstone::baselines
+}  // namespace touchstone::verify::published

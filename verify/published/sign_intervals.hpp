@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace touchstone::baselines {
+namespace touchstone::verify::published {
 
 /// A closed interval of times in [0,1], of any length, 0 as well.
 struct TimeInterval {
@@ -32,4 +32,4 @@ enum class WantedSign { not_negative, not_positive };
 [[nodiscard]] std::vector<TimeInterval> sign_intervals(std::span<const double> coefficients,
                                                        WantedSign sign);
 
-}  // namespace touchstone::baselines
+}  // namespace touchstone::verify::published
