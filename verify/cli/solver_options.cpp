@@ -157,7 +157,7 @@ void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes) {
 Responses Responses::of(const judge::Judgement& judgement) {
   return {.asked = judgement.queries,
           .hangs = judgement.count(judge::Fault::hang),
-          .errors = judgement.errors(),
+          .errors = judgement.errors_at_queries(),
           .unasked = judgement.outside + judgement.left_out};
 }
 

@@ -1,323 +1,314 @@
 #include "verify/jobs/certify.hpp"
 
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include <algorithm>
+#include <exception>
+#include <iterator>
 #include <map>
-#include <span>
 #include <utility>
 
+#include "touchstone/certificate_text.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/base/cores.hpp"
 #include "verify/base/thread_clock.hpp"
-#include "verify/jobs/stream.hpp"
+#include "verify/io/terminal.hpp"
 #include "verify/judge/ground_truth.hpp"
 
 namespace touchstone::verify::jobs {
 namespace {
 
-// ---- Truth --------------------------------------------------------------------------------------
+namespace tbb = oneapi::tbb;
 
-struct BlockTruthOptions {
-  Separation separation = {};
-  judge::LabelComparison comparison = {};
-  bool times = false;         ///< true if times of impact are needed
-  bool certificates = false;  ///< true if certificates are to be written
-  exact::ProveOptions proof = {};
-};
+/// Queries of a block: enough that the cost of a call hides behind them, and few enough that a stop
+/// and a deadline are soon obeyed.
+constexpr std::size_t least_queries = 16, most_queries = 256;
 
-/// The results of the oracle for a part of a block.
-struct DecidedPart {
-  std::vector<judge::Mismatch> mismatches;
-  double nanoseconds = 0.0;
-  std::string certificates;
-  ProofCounts proofs;
-};
+/// The number of queries of the next block after some: smaller at first on many cores, so that a
+/// source of a thousand queries keeps all of them busy too.
+std::size_t size_of_block(std::size_t queries_so_far, std::size_t threads) {
+  return std::clamp(queries_so_far / (4 * threads), std::max(least_queries, most_queries / threads),
+                    most_queries);
+}
 
-/// The truth about the queries of one block.
-class BlockTruth {
+/// Some consecutive queries of a source: they are read, worked on and told.
+class Block {
  public:
-  /// Decides all queries in one of the passes. The block must live as long as this.
-  BlockTruth(const QueryBlock& block, BlockTruthOptions options, Passes& passes)
-      : block_(block),
-        options_(std::move(options)),
-        truths_(block.size()),
-        parts_(Passes::units(block.size())) {
-    passes.run(Passes::unit, [this](std::size_t first, std::size_t count) {
-      decide(first, count, parts_[first / Passes::unit]);
-      return true;
-    });
+  /// All must live as long as the block.
+  Block(const data::QuerySource& source, const CertifyOptions& options,
+        const judge::LabelComparison& comparison)
+      : source_(source.name()),
+        shape_(source.shape()),
+        options_(options),
+        comparison_(comparison) {}
+
+  // ---- The first stage, in order
+
+  void add(data::RecordedQuery&& recorded) {
+    std::ranges::copy(recorded.query.numbers(), std::back_inserter(numbers_));
+    indices_.push_back(recorded.index);
+    labels_.push_back({recorded.collides, std::move(recorded.toi)});
   }
 
-  /// By query, without times where these are not needed.
-  [[nodiscard]] std::span<const judge::GroundTruth> truths() const { return truths_; }
+  [[nodiscard]] std::size_t size() const { return indices_.size(); }
 
-  /// The parts of the first `count` queries.
-  [[nodiscard]] std::span<const DecidedPart> parts(std::size_t count) const {
-    return std::span(parts_).first(Passes::units(count));
-  }
+  // ---- The second stage, in parallel
 
-  /// Adds counts and mismatches of the first `count` queries.
-  void add_to(CertifyResult& result, std::size_t count) const {
-    for (std::size_t i = 0; i < count; ++i) {
-      ++result.queries;
-      result.collisions += truths_[i].collides ? 1U : 0U;
-      result.labels += options_.comparison.uses_verdict(block_.labels[i]) ? 1U : 0U;
-      result.tois += options_.comparison.uses_toi(block_.labels[i]) ? 1U : 0U;
-    }
-    for (const DecidedPart& part : parts(count)) {
-      for (const judge::Mismatch& mismatch : part.mismatches) {
-        ++(mismatch.of == judge::Mismatch::Of::label ? result.label_mismatches
-                                                     : result.toi_mismatches);
-        result.mismatches.push_back(mismatch);
-      }
-      result.microseconds += 1e-3 * part.nanoseconds;
-      result.proofs += part.proofs;
+  /// Decides the queries, and asks the solvers, until a stop.
+  void work() {
+    if (options_.decides && !is_stopped()) decide();
+    answers_.reserve(options_.solvers.size());
+    for (const solvers::Solver* solver : options_.solvers) {
+      if (!is_stopped()) ask(*solver);
     }
   }
 
- private:
-  void decide(std::size_t first, std::size_t count, DecidedPart& part) {
-    const double start = base::thread_nanoseconds();
-    const std::vector<exact::Decision> verdicts =
-        exact::decide(block_.queries().part(first, count), options_.separation);
-    part.nanoseconds = base::thread_nanoseconds() - start;
-    for (std::size_t i = 0; i < count; ++i) {
-      const exact::Decision& verdict = verdicts[i];
-      const std::uint64_t index = block_.indices[first + i];
-      for (judge::Mismatch& mismatch :
-           judge::judge_label(index, block_.labels[first + i], verdict, options_.comparison)) {
-        part.mismatches.push_back(std::move(mismatch));
-      }
-      truths_[first + i] =
-          options_.times ? judge::truth_of(index, verdict)
-                         : judge::GroundTruth{
-                               .index = index, .collides = verdict.collides(), .toi = std::nullopt};
-    }
-    if (options_.certificates) prove(first, verdicts, part);
+  // ---- The third stage, in order
+
+  /// False if a stop has cut the second one short.
+  [[nodiscard]] bool is_complete() const {
+    const auto is_cut = [](const Answers& answers) { return answers.reply.stopped; };
+    return truths_.size() == (options_.decides ? size() : 0) &&
+           answers_.size() == options_.solvers.size() && std::ranges::none_of(answers_, is_cut);
   }
 
-  void prove(std::size_t first, const std::vector<exact::Decision>& verdicts,
-             DecidedPart& part) const {
-    const double start = base::thread_nanoseconds();
-    for (std::size_t i = 0; i < verdicts.size(); ++i) {
-      append_certificate(block_.queries(), first + i, verdicts[i],
-                         certificate_label(*block_.source, block_.indices[first + i]),
-                         options_.proof, part.certificates, part.proofs);
-    }
-    part.proofs.nanoseconds = base::thread_nanoseconds() - start;
-  }
-
-  const QueryBlock& block_;
-  BlockTruthOptions options_;
-  std::vector<judge::GroundTruth> truths_;
-  std::vector<DecidedPart> parts_;
-};
-
-// ---- Answers ------------------------------------------------------------------------------------
-
-/// The answers of a solver to the queries of one block. All below is about the first `count` of
-/// them, no more than are complete (Passes::complete). A call may reach beyond these; it then
-/// counts in part.
-class BlockAnswers {
- public:
-  /// Asks the solver in one of the passes. The block and the solver must live as long as this.
-  BlockAnswers(const QueryBlock& block, const solvers::Solver& solver, const Separation& separation,
-               Passes& passes)
-      : block_(block),
-        solver_(solver),
-        separation_(separation),
-        answers_(block.size()),
-        calls_(Passes::units(block.size())) {
-    passes.run(solver.good_span(), [this](std::size_t first, std::size_t count) {
-      Call& call = calls_[first / Passes::unit];
-      call = {.count = count,
-              .reply = solver_.solve_timed(block_.request(first, count, separation_),
-                                           std::span(answers_).subspan(first, count))};
-      return !call.reply.stopped;
-    });
-    for (std::size_t unit = 0; unit < calls_.size(); ++unit) {
-      const bool is_begin = unit == 0 || calls_[unit].count != 0;
-      begins_.push_back(is_begin ? unit * Passes::unit : begins_.back());
-    }
-  }
-
-  [[nodiscard]] const solvers::Solver& solver() const { return solver_; }
-
-  /// By query.
-  [[nodiscard]] std::span<const fast::Answer> answers() const { return answers_; }
-
-  /// The failure at query i that the solver reports with the answers, or null.
-  [[nodiscard]] const judge::Failure* failure(std::size_t i) const {
-    const std::size_t first = begins_[i / Passes::unit];
-    return judge::failure_at(calls_[first / Passes::unit].reply.failures, i - first);
-  }
-
-  /// The reason why query i was not asked; nothing if it was.
-  [[nodiscard]] std::optional<judge::Unasked> why_unasked(std::size_t i) const {
-    const std::size_t first = begins_[i / Passes::unit];
-    return calls_[first / Passes::unit].reply.why_unasked(i - first);
-  }
-
-  /// The answer to query i as a person is shown it, unless the solver has none.
-  [[nodiscard]] std::optional<judge::GivenAnswer> given(std::size_t i) const {
-    if (why_unasked(i)) return std::nullopt;
-    judge::GivenAnswer given{
-        .solver = solver_.name(), .answer = answers_[i], .standard = solver_.standard()};
-    if (const judge::Failure* const failed = failure(i)) given.failure = *failed;
-    return given;
-  }
-
-  /// The judgement on the first `count` answers. \param truths empty: queries are only counted
-  [[nodiscard]] judge::Judgement judge(std::size_t count,
-                                       std::span<const judge::GroundTruth> truths) const {
-    judge::Judgement judgement;
-    const Queries queries = block_.queries();
-    for (std::size_t i = 0; i < count; ++i) {
-      if (const auto why = why_unasked(i)) {
-        judgement.add_unasked(*why, block_.indices[i]);
-      } else if (truths.empty()) {
-        ++judgement.queries;
-      } else {
-        judgement.add({queries.part(i, 1), separation_}, truths[i], answers_[i], solver_.standard(),
-                      failure(i));
-      }
-    }
-    for (const Call& call : std::span(calls_).first(Passes::units(count))) {
-      judgement.unplaced_crashes += call.reply.unplaced_crashes;
-    }
-    for (std::size_t first = 0; first < count; first += calls_[first / Passes::unit].count) {
-      const Call& call = calls_[first / Passes::unit];
-      const std::size_t counted = std::min(call.count, count - first);
-      judgement.nanoseconds += call.reply.time.value().processor_nanoseconds *
-                               static_cast<double>(counted) / static_cast<double>(call.count);
-    }
-    return judgement;
-  }
-
- private:
-  /// A call, which answers queries from a multiple of Passes::unit on.
-  struct Call {
-    std::size_t count = 0;  ///< of queries; 0: no call begins here
-    solvers::SolveReply reply;
-  };
-
-  const QueryBlock& block_;
-  const solvers::Solver& solver_;
-  Separation separation_;
-  std::vector<fast::Answer> answers_;
-  std::vector<Call> calls_;               ///< by the unit of their first query
-  std::vector<std::size_t> begins_ = {};  ///< by unit: the first query of its call
-};
-
-// ---- Both ---------------------------------------------------------------------------------------
-
-/// The parallel stage: the truth about the queries of one block, and the judgement on labels and
-/// answers.
-class BlockJudgement {
- public:
-  BlockJudgement(const QueryBlock& block, const CertifyOptions& options,
-                 const judge::LabelComparison& comparison)
-      : block_(block), options_(options), passes_(block.size(), options.stop) {
-    if (options.decides) {
-      truth_.emplace(block,
-                     BlockTruthOptions{.separation = options.separation,
-                                       .comparison = comparison,
-                                       .times = options.on_truth || !options.solvers.empty(),
-                                       .certificates = options.on_certificates != nullptr,
-                                       .proof = options.proof},
-                     passes_);
-    }
-    answers_.reserve(options.solvers.size());
-    for (const solvers::Solver* solver : options.solvers) {
-      answers_.emplace_back(block, *solver, options.separation, passes_);
-    }
-    complete_ = passes_.complete();
-    for (const BlockAnswers& answers : answers_) {
-      judgements_.push_back(answers.judge(complete_, truths()));
-    }
-  }
-
-  [[nodiscard]] bool complete() const { return complete_ == block_.size(); }
-
-  /// The serial stage.
   void add_to(CertifyResult& result) const {
-    if (truth_) truth_->add_to(result, complete_);
-    if (options_.on_truth) std::ranges::for_each(truths(), options_.on_truth);
-    if (options_.on_certificates) {
-      for (const DecidedPart& part : parts()) options_.on_certificates(part.certificates);
-    }
+    result.queries += size();
+    if (options_.decides) add_truth_to(result);
+    if (options_.on_truth) std::ranges::for_each(truths_, options_.on_truth);
+    if (options_.on_certificates) options_.on_certificates(certificates_);
     if (options_.on_answer) tell_answers();
     if (options_.on_wrong) tell_wrong_queries();
-    for (std::size_t i = 0; i < judgements_.size(); ++i) {
-      result.methods[i].judgement += judgements_[i];
+    for (std::size_t i = 0; i < answers_.size(); ++i) {
+      result.methods[i].judgement += answers_[i].judgement;
     }
   }
 
  private:
-  /// The truth about the complete queries; empty if none are decided.
-  [[nodiscard]] std::span<const judge::GroundTruth> truths() const {
-    if (!truth_) return {};
-    return truth_->truths().first(complete_);
+  /// Those of a solver.
+  struct Answers {
+    const solvers::Solver& solver;
+    std::vector<fast::Answer> all;
+    solvers::SolveReply reply;
+    judge::Judgement judgement = {};
+
+    [[nodiscard]] const judge::Failure* failure(std::size_t i) const {
+      return judge::failure_at(reply.failures, i);
+    }
+  };
+
+  [[nodiscard]] Queries queries() const { return {shape_, numbers_}; }
+  [[nodiscard]] bool is_stopped() const { return base::is_stopped(options_.stop); }
+
+  // ---- Truth
+
+  void decide() {
+    const double start = base::thread_nanoseconds();
+    const std::vector<exact::Decision> decisions = exact::decide(queries(), options_.separation);
+    nanoseconds_ = base::thread_nanoseconds() - start;
+    const bool has_times = options_.on_truth || !options_.solvers.empty();
+    for (std::size_t i = 0; i < decisions.size(); ++i) {
+      const exact::Decision& decision = decisions[i];
+      const std::uint64_t index = indices_[i];
+      std::ranges::move(judge::judge_label(index, labels_[i], decision, comparison_),
+                        std::back_inserter(mismatches_));
+      truths_.push_back(
+          has_times
+              ? judge::truth_of(index, decision)
+              : judge::GroundTruth{.index = index, .collides = decision.collides(), .toi = {}});
+    }
+    if (options_.on_certificates) prove(decisions);
   }
-  [[nodiscard]] std::span<const DecidedPart> parts() const {
-    if (!truth_) return {};
-    return truth_->parts(complete_);
+
+  void prove(const std::vector<exact::Decision>& decisions) {
+    const double start = base::thread_nanoseconds();
+    for (std::size_t i = 0; i < size(); ++i) {
+      const std::string label = certificate_label(source_, indices_[i]);
+      try {
+        const exact::Certificate certificate =
+            exact::prove(queries(), i, decisions[i], options_.proof);
+        exact::write(certificates_, certificate, label);
+        proofs_.add(certificate);
+      } catch (const exact::CertificateLimitError& error) {
+        proofs_.beyond_limits.push_back(fmt::format("{}: no certificate: {}", label, error.what()));
+      }
+    }
+    proofs_.bytes = certificates_.size();
+    proofs_.nanoseconds = base::thread_nanoseconds() - start;
+  }
+
+  void add_truth_to(CertifyResult& result) const {
+    for (std::size_t i = 0; i < size(); ++i) {
+      result.collisions += truths_[i].collides ? 1U : 0U;
+      result.labels += comparison_.uses_verdict(labels_[i]) ? 1U : 0U;
+      result.tois += comparison_.uses_toi(labels_[i]) ? 1U : 0U;
+    }
+    for (const judge::Mismatch& mismatch : mismatches_) {
+      ++(mismatch.of == judge::Mismatch::Of::label ? result.label_mismatches
+                                                   : result.toi_mismatches);
+      result.mismatches.push_back(mismatch);
+    }
+    result.microseconds += 1e-3 * nanoseconds_;
+    result.proofs += proofs_;
+  }
+
+  // ---- Answers
+
+  void ask(const solvers::Solver& solver) {
+    Answers& answers = answers_.emplace_back(
+        Answers{.solver = solver, .all = std::vector<fast::Answer>(size()), .reply = {}});
+    answers.reply = solver.solve_timed({.queries = queries(),
+                                        .separation = options_.separation,
+                                        .source = source_,
+                                        .indices = indices_},
+                                       answers.all);
+    judge::Judgement& judgement = answers.judgement;
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (const auto why = answers.reply.why_unasked(i)) {
+        judgement.add_unasked(*why, indices_[i]);
+      } else if (options_.decides) {
+        judgement.add({queries().part(i, 1), options_.separation}, truths_[i], answers.all[i],
+                      solver.standard(), answers.failure(i));
+      } else {
+        judgement.add(answers.all[i], answers.failure(i));
+      }
+    }
+    judgement.unplaced_crashes = answers.reply.unplaced_crashes;
+    judgement.nanoseconds = answers.reply.time.value().processor_nanoseconds;
   }
 
   void tell_answers() const {
-    for (const BlockAnswers& answers : answers_) {
-      for (std::size_t i = 0; i < complete_; ++i) {
-        if (answers.why_unasked(i)) continue;
-        options_.on_answer(answers.solver(), block_.indices[i], answers.answers()[i],
-                           answers.failure(i));
+    for (const Answers& answers : answers_) {
+      for (std::size_t i = 0; i < size(); ++i) {
+        if (answers.reply.why_unasked(i)) continue;
+        options_.on_answer(answers.solver, indices_[i], answers.all[i], answers.failure(i));
       }
     }
   }
 
-  /// The texts of all faults, by the indices of the queries.
-  [[nodiscard]] std::map<std::uint64_t, std::vector<std::string>> faults() const {
-    std::map<std::uint64_t, std::vector<std::string>> result;
-    for (const DecidedPart& part : parts()) {
-      for (const judge::Mismatch& mismatch : part.mismatches) {
-        result[mismatch.index].push_back(judge::to_text(mismatch));
-      }
-    }
-    for (std::size_t i = 0; i < judgements_.size(); ++i) {
-      const solvers::Solver& solver = *options_.solvers[i];
-      for (const judge::WrongAnswer& wrong : judgements_[i].wrong_answers) {
-        if (!judge::breaks(wrong.fault, solver.promise())) continue;
-        result[wrong.index].push_back(judge::to_text(solver.name(), wrong));
-      }
-    }
-    return result;
-  }
+  // ---- Wrong queries
 
   void tell_wrong_queries() const {
-    for (auto& [index, texts] : faults()) {
-      const auto place = std::ranges::lower_bound(block_.indices, index) - block_.indices.begin();
-      const auto i = static_cast<std::size_t>(place);
-      judge::WrongQuery wrong{.source = *block_.source,
-                              .index = index,
-                              .query = {block_.queries(), i},
-                              .separation = options_.separation,
-                              .faults = texts};
-      for (const BlockAnswers& answers : answers_) {
-        if (auto given = answers.given(i)) wrong.answers.push_back(std::move(*given));
+    std::map<std::uint64_t, judge::WrongQuery> all;
+    for (const judge::Mismatch& mismatch : mismatches_) {
+      all[mismatch.index].faults.push_back(judge::to_text(mismatch));
+    }
+    for (const Answers& answers : answers_) {
+      for (const judge::WrongAnswer& wrong : answers.judgement.wrong_answers) {
+        if (!judge::breaks(wrong.fault, answers.solver.promise())) continue;
+        all[wrong.index].faults.push_back(judge::to_text(answers.solver.name(), wrong));
       }
-      options_.on_wrong(std::move(wrong));
+    }
+    for (std::size_t i = 0; i < size(); ++i) {
+      const auto wrong = all.find(indices_[i]);
+      if (wrong != all.end()) tell_wrong_query(i, std::move(wrong->second));
     }
   }
 
-  const QueryBlock& block_;
+  void tell_wrong_query(std::size_t i, judge::WrongQuery wrong) const {
+    wrong.source = source_;
+    wrong.index = indices_[i];
+    wrong.query = {queries(), i};
+    wrong.separation = options_.separation;
+    for (const Answers& answers : answers_) {
+      if (answers.reply.why_unasked(i)) continue;
+      const judge::Failure* const failed = answers.failure(i);
+      wrong.answers.push_back({.solver = answers.solver.name(),
+                               .answer = answers.all[i],
+                               .failure = failed == nullptr ? std::nullopt : std::optional(*failed),
+                               .standard = answers.solver.standard()});
+    }
+    options_.on_wrong(std::move(wrong));
+  }
+
+  const std::string& source_;
+  QueryShape shape_;
   const CertifyOptions& options_;
-  Passes passes_;
-  std::optional<BlockTruth> truth_;
-  std::vector<BlockAnswers> answers_;
-  std::vector<judge::Judgement> judgements_;
-  std::size_t complete_ = 0;
+  const judge::LabelComparison& comparison_;
+  std::vector<double> numbers_;
+  std::vector<std::uint64_t> indices_;
+  std::vector<judge::Label> labels_;
+  std::vector<judge::GroundTruth> truths_;  // without times where these are not needed
+  std::vector<judge::Mismatch> mismatches_;
+  double nanoseconds_ = 0.0;  // of the oracle
+  std::string certificates_;
+  ProofCounts proofs_;
+  std::vector<Answers> answers_;
 };
 
-/// Queries of a block if time is short.
-constexpr std::size_t short_block = 256;
+/// The ends of the pipeline, each in order: reading and telling.
+class Stream {
+ public:
+  /// \param blocks_in_flight two for each thread
+  /// \param result with the solvers as its methods
+  Stream(data::QuerySource& source, const CertifyOptions& options,
+         const judge::LabelComparison& comparison, std::size_t blocks_in_flight,
+         CertifyResult& result)
+      : source_(source),
+        options_(options),
+        comparison_(comparison),
+        in_flight_(blocks_in_flight),
+        result_(result) {}
+
+  /// The next block, in the place of one that is told; null at the end.
+  Block* read() {
+    Block& block =
+        in_flight_[blocks_++ % in_flight_.size()].emplace(source_, options_, comparison_);
+    const std::size_t size = size_of_block(queries_, in_flight_.size() / 2);
+    while (!ended_ && block.size() < size) read_query(block);
+    queries_ += block.size();
+    if (options_.on_progress) options_.on_progress(source_.progress());
+    return block.size() == 0 ? nullptr : &block;
+  }
+
+  /// A block is kept or dropped whole: after a stop, the result is that of the first queries.
+  void tell(const Block& block) {
+    cut_ = cut_ || !block.is_complete();
+    if (!cut_) block.add_to(result_);
+  }
+
+  /// Closes the result after the last block.
+  void close() {
+    result_.interrupted = ended_early_ || cut_;
+    result_.skipped = source_.skipped();
+    result_.rounded = source_.rounded();
+  }
+
+ private:
+  void read_query(Block& block) {
+    const bool is_late = block.size() == 0 && options_.deadline.is_over();
+    if (base::is_stopped(options_.stop) || is_late) {
+      ended_ = ended_early_ = true;
+      return;
+    }
+    try {
+      auto query = source_.next();
+      ended_ = !query;
+      if (query) block.add(std::move(*query));
+    } catch (const io::Interrupted&) {
+      ended_ = ended_early_ = true;
+    } catch (const std::exception& error) {
+      result_.fail(error.what());
+      ended_ = true;
+    }
+  }
+
+  data::QuerySource& source_;
+  const CertifyOptions& options_;
+  const judge::LabelComparison& comparison_;
+  /// The pipeline has only pointers: oneTBB may lose objects that it owns if work throws. Blocks
+  /// begin and end in order; the size of this vector ensures that the first block is told before
+  /// its place is needed again.
+  std::vector<std::optional<Block>> in_flight_;
+  std::size_t blocks_ = 0;   // read so far
+  std::size_t queries_ = 0;  // in these
+  CertifyResult& result_;
+  bool ended_ = false;
+  bool ended_early_ = false;
+  bool cut_ = false;
+};
 
 void add_methods(std::vector<MethodResult>& sum, const std::vector<MethodResult>& methods) {
   for (std::size_t i = 0; i < methods.size(); ++i) {
@@ -349,10 +340,6 @@ std::optional<double> MethodResult::nanoseconds_per_query() const {
 std::optional<double> MethodResult::checks_per_query() const {
   if (judgement.queries == 0 || judgement.checks == 0) return std::nullopt;
   return static_cast<double>(judgement.checks) / static_cast<double>(judgement.queries);
-}
-
-exact::Rational CertifyOptions::default_toi_tolerance() {
-  return exact::rational_from_decimal("1e-40");
 }
 
 double CertifyResult::microseconds_per_query() const {
@@ -391,9 +378,7 @@ bool has_wrong_answers(const CertifyResult& result) {
 
 CertifyResult certify(data::QuerySource& source, const CertifyOptions& options) {
   const judge::LabelComparison comparison{
-      .inference = options.compares_labels
-                       ? judge::infer(source.recorded_separation(), options.separation)
-                       : judge::Inference::nothing,
+      .inference = judge::infer(source.recorded_separation(), options.separation),
       .tolerance = options.toi_tolerance};
   CertifyResult result;
   result.separation = options.separation;
@@ -403,18 +388,32 @@ CertifyResult certify(data::QuerySource& source, const CertifyOptions& options) 
   for (const solvers::Solver* solver : options.solvers) {
     result.methods.push_back(result_of(*solver));
   }
-  const StreamResult ended = stream(
-      source, [&](const QueryBlock& block) { return BlockJudgement(block, options, comparison); },
-      [&](const BlockJudgement& judgement) { judgement.add_to(result); },
-      {.threads = options.threads,
-       .on_progress = options.on_progress,
-       .stop = options.stop,
-       .deadline = options.deadline,
-       .block = options.is_short_of_time ? short_block : QueryBlock::most_queries});
-  result.skipped = ended.skipped;
-  result.rounded = ended.rounded;
-  result.interrupted = ended.interrupted;
-  if (ended.error) result.fail(*ended.error);
+  const int threads = base::cores_for(options.threads);
+  const std::size_t blocks_in_flight = 2 * static_cast<std::size_t>(threads);
+  Stream stream(source, options, comparison, blocks_in_flight, result);
+  const auto read = [&](tbb::flow_control& flow) {
+    Block* const block = stream.read();
+    if (block == nullptr) flow.stop();
+    return block;
+  };
+  const auto work = [](Block* block) {
+    block->work();
+    return block;
+  };
+  const auto tell = [&](const Block* block) { stream.tell(*block); };
+  const auto run = [&] {
+    tbb::parallel_pipeline(
+        blocks_in_flight,
+        tbb::make_filter<void, Block*>(tbb::filter_mode::serial_in_order, read) &
+            tbb::make_filter<Block*, Block*>(tbb::filter_mode::parallel, work) &
+            tbb::make_filter<Block*, void>(tbb::filter_mode::serial_in_order, tell));
+  };
+  try {
+    tbb::task_arena(threads).execute(run);
+  } catch (const std::exception& error) {
+    result.fail(error.what());
+  }
+  stream.close();
   return result;
 }
 
@@ -427,20 +426,17 @@ CertifyResult total(const std::vector<CertifyResult>& results) {
 
 Budget::Budget(double seconds, std::vector<const solvers::Solver*> solvers, unsigned threads,
                const base::SecondsClock& clock)
-    : end_(base::Deadline(seconds, clock)),
-      solvers_(std::move(solvers)),
-      threads_(base::cores_for(threads)) {}
+    : end_(seconds, clock), solvers_(std::move(solvers)), threads_(base::cores_for(threads)) {}
 
 base::Deadline Budget::begin_source(std::size_t sources_left) const {
-  if (!end_) return {};
   // The rest is for the oracle, the reading and the writing.
   constexpr double solvers_part = 0.8;
   const double seconds =
-      end_->seconds_left() / static_cast<double>(std::max<std::size_t>(sources_left, 1));
+      end_.seconds_left() / static_cast<double>(std::max<std::size_t>(sources_left, 1));
   for (const solvers::Solver* solver : solvers_) {
     solver->allow(solvers_part * seconds * threads_ / static_cast<double>(solvers_.size()));
   }
-  return end_->at_most(seconds);
+  return end_.at_most(seconds);
 }
 
 }  // namespace touchstone::verify::jobs

@@ -4,10 +4,10 @@
 /// The one job on the queries of a source: decide them, hold labels and solvers' answers against
 /// the truth, and pass on truth, certificates, answers or wrong queries, as requested.
 ///
-/// Queries stream from the source through the oracle, many at a time on all cores, and come out in
-/// the order they went in: the output does not depend on the number of threads. Time is the
-/// processor time that the oracle takes, so that it does not depend on them either, nor on reading.
-/// Solvers and recorded answers are judged in the same pass.
+/// Queries stream from the source through the oracle and the solvers, in blocks on all cores, and
+/// come out in the order they went in: the output does not depend on the number of threads. Time is
+/// the processor time that the oracle takes, so that it does not depend on them either, nor on
+/// reading.
 
 #include <atomic>
 #include <cstddef>
@@ -36,12 +36,10 @@ struct CertifyOptions {
   Separation separation = {};
   /// False: the solvers are asked, and nothing is decided, compared, proved or judged.
   bool decides = true;
-  /// False: recorded labels and times are not compared with the truth.
-  bool compares_labels = true;
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
-  /// The tolerated error of a recorded time of impact; 0: none.
-  exact::Rational toi_tolerance = default_toi_tolerance();
+  /// The tolerated error of a recorded time of impact (published ones have 45 digits); 0: none.
+  exact::Rational toi_tolerance = exact::rational_from_decimal("1e-40");
   /// Called for every query, in order, never from two threads at once.
   std::function<void(const judge::GroundTruth&)> on_truth = nullptr;
   /// Called with the certificates of queries (touchstone/certificate.hpp), whole ones and in order,
@@ -65,13 +63,8 @@ struct CertifyOptions {
   const std::atomic<bool>* stop = nullptr;
   /// No further queries are read after it (Budget::begin_source).
   base::Deadline deadline = {};
-  /// Use small blocks, so that the deadline is met.
-  bool is_short_of_time = false;
   /// Judged on every query; not null.
   std::vector<const solvers::Solver*> solvers = {};
-
-  /// 1e-40: published times of impact have 45 digits.
-  static exact::Rational default_toi_tolerance();
 };
 
 /// The judgement on one solver.
@@ -98,9 +91,9 @@ struct CertifyResult {
   /// The recorded claims that were compared; not set in a total.
   judge::Inference compared = judge::Inference::all;
   std::optional<QueryShape> shape;  ///< empty for a total, and for a source that was not opened
-  std::uint64_t queries = 0;        ///< decided
-  std::uint64_t collisions = 0;     ///< of these, by the truth
-  std::uint64_t labels = 0;         ///< queries with a recorded verdict that is compared
+  std::uint64_t queries = 0;
+  std::uint64_t collisions = 0;  ///< of these, by the truth
+  std::uint64_t labels = 0;      ///< queries with a recorded verdict that is compared
   std::uint64_t label_mismatches = 0;
   std::uint64_t tois = 0;  ///< queries with a recorded time of impact that is compared
   std::uint64_t toi_mismatches = 0;
@@ -155,11 +148,10 @@ class Budget {
   /// after which no further queries are to be read.
   [[nodiscard]] base::Deadline begin_source(std::size_t sources_left) const;
 
-  [[nodiscard]] bool is_limited() const { return end_.has_value(); }
-  [[nodiscard]] bool is_over() const { return end_ && end_->is_over(); }
+  [[nodiscard]] bool is_over() const { return end_.is_over(); }
 
  private:
-  std::optional<base::Deadline> end_;
+  base::Deadline end_;
   std::vector<const solvers::Solver*> solvers_;
   int threads_ = 1;
 };

@@ -4,27 +4,11 @@
 
 #include <utility>
 
-#include "touchstone/certificate_text.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"
-#include "verify/jobs/stream.hpp"
 
 namespace touchstone::verify::jobs {
 namespace {
-
-void count(const exact::Certificate& certificate, ProofCounts& counts) {
-  switch (certificate.claim) {
-    case exact::Claim::no_collision:
-      ++counts.no_collision;
-      break;
-    case exact::Claim::collision:
-      ++counts.collision;
-      break;
-    default:
-      ++counts.time_of_impact;
-  }
-  ++counts.subintervals[certificate.subintervals.size()];
-}
 
 double per_certificate(double sum, const ProofCounts& counts) {
   const std::uint64_t certificates = counts.certificates();
@@ -35,6 +19,13 @@ double per_certificate(double sum, const ProofCounts& counts) {
 
 std::uint64_t ProofCounts::certificates() const {
   return no_collision + collision + time_of_impact;
+}
+
+void ProofCounts::add(const exact::Certificate& certificate) {
+  ++(certificate.claim == exact::Claim::no_collision ? no_collision
+     : certificate.claim == exact::Claim::collision  ? collision
+                                                     : time_of_impact);
+  ++subintervals[certificate.subintervals.size()];
 }
 
 ProofCounts& ProofCounts::operator+=(const ProofCounts& other) {
@@ -50,20 +41,6 @@ ProofCounts& ProofCounts::operator+=(const ProofCounts& other) {
 
 std::string certificate_label(std::string_view source, std::uint64_t index) {
   return fmt::format("{}:{}", io::printable(source), index);
-}
-
-void append_certificate(const Queries& queries, std::size_t i, const exact::Decision& verdict,
-                        std::string_view label, const exact::ProveOptions& options,
-                        std::string& text, ProofCounts& counts) {
-  try {
-    const exact::Certificate certificate = exact::prove(queries, i, verdict, options);
-    const std::size_t before = text.size();
-    exact::write(text, certificate, label);
-    count(certificate, counts);
-    counts.bytes += text.size() - before;
-  } catch (const exact::CertificateLimitError& error) {
-    counts.beyond_limits.push_back(fmt::format("{}: no certificate: {}", label, error.what()));
-  }
 }
 
 std::string to_text(const ProofCounts& counts) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Certificates of a source's queries, in the order of the queries, computed on all cores.
+/// The certificates of a source's queries: their labels, and what they are in numbers.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,9 +12,6 @@
 #include <vector>
 
 #include "touchstone/certificate.hpp"
-#include "touchstone/oracle.hpp"
-#include "touchstone/query.hpp"
-#include "verify/data/query_source.hpp"
 
 namespace touchstone::verify::jobs {
 
@@ -32,16 +29,14 @@ struct ProofCounts {
 
   [[nodiscard]] std::uint64_t certificates() const;
 
+  /// Counts a certificate, without its bytes and its time.
+  void add(const exact::Certificate& certificate);
+
   ProofCounts& operator+=(const ProofCounts& other);
 };
 
 /// "path/to/file.csv:17", query number 17 counted from 0: the label of a query's certificate.
 [[nodiscard]] std::string certificate_label(std::string_view source, std::uint64_t index);
-
-/// Appends the certificate of query i to the text, and counts it, without its time.
-void append_certificate(const Queries& queries, std::size_t i, const exact::Decision& verdict,
-                        std::string_view label, const exact::ProveOptions& options,
-                        std::string& text, ProofCounts& counts);
 
 /// The counts as text.
 [[nodiscard]] std::string to_text(const ProofCounts& counts);

@@ -160,6 +160,15 @@ void Judgement::add(const Question& question, const GroundTruth& known, const fa
   toi_errors.add(std::max(upper - time, time - lower));
 }
 
+void Judgement::add(const fast::Answer& answer, const Failure* failure) {
+  ++queries;
+  if (const auto why = failure != nullptr ? std::optional(*failure) : failure_of(answer)) {
+    ++faults[static_cast<std::size_t>(why->kind)];
+  } else if (answer.verdict == fast::Verdict::yes) {
+    ++collisions;
+  }
+}
+
 bool Judgement::count_kept(Fault fault, bool is_slight) {
   const std::uint64_t all = ++faults[static_cast<std::size_t>(fault)];
   if (is_slight) return ++slightly_late <= most_kept;

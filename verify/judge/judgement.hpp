@@ -116,7 +116,7 @@ struct Judgement {
   static constexpr std::size_t most_kept = 1000;
 
   std::uint64_t queries = 0;     ///< answered
-  std::uint64_t collisions = 0;  ///< of these, by the truth
+  std::uint64_t collisions = 0;  ///< of these, by the truth, or by the answers without one
   /// Queries not asked, because they are outside the terms of the promise; not in `queries`.
   std::uint64_t outside = 0;
   std::uint64_t left_out = 0;  ///< not asked for lack of time, and not in `queries`
@@ -141,6 +141,7 @@ struct Judgement {
   }
   /// The errors of all kinds, at queries and elsewhere.
   [[nodiscard]] std::uint64_t errors() const;
+  [[nodiscard]] std::uint64_t errors_at_queries() const { return errors() - unplaced_crashes; }
   /// Undecided by itself, or for the limit of time.
   [[nodiscard]] std::uint64_t undecided() const {
     return count(Fault::undecided) + count(Fault::hang);
@@ -157,6 +158,9 @@ struct Judgement {
   /// judge(), but query and truth those before they are rounded for the solver.
   void add(const Question& question, const GroundTruth& known, const fast::Answer& answer,
            const Standard& standard, const Failure* failure = nullptr);
+
+  /// Counts an answer where the truth is not known.
+  void add(const fast::Answer& answer, const Failure* failure);
 
   /// Notes that there is no answer to that query.
   void add_unasked(Unasked why, std::uint64_t index);

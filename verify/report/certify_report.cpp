@@ -345,6 +345,16 @@ void append_wrong_answers(nlohmann::json& methods, const jobs::CertifyResult& re
   }
 }
 
+// ---- Answers without a truth --------------------------------------------------------------------
+
+std::uint64_t noes_of(const judge::Judgement& asked) {
+  return asked.queries - asked.collisions - asked.undecided() - asked.errors_at_queries();
+}
+
+std::uint64_t unasked_of(const judge::Judgement& asked) {
+  return asked.missing + asked.outside + asked.left_out;
+}
+
 }  // namespace
 
 std::string to_text(const std::vector<jobs::CertifyResult>& results) {
@@ -450,6 +460,35 @@ nlohmann::json to_json(const std::vector<jobs::CertifyResult>& results) {
     }
   }
   return json;
+}
+
+std::string answers_to_text(const jobs::MethodResult& method) {
+  const judge::Judgement& asked = method.judgement;
+  std::string text =
+      fmt::format("{}: {} queries, {} yes, {} no, {} undecided, {} errors, {:.1f} ns/query\n",
+                  method.name, asked.queries, asked.collisions, noes_of(asked), asked.undecided(),
+                  asked.errors_at_queries(), asked.nanoseconds_per_query());
+  if (const std::uint64_t unasked = unasked_of(asked); unasked != 0) {
+    text += fmt::format(
+        "not asked: {} queries outside its terms{}, or similar to those at which it hangs\n",
+        unasked, judge::to_text(method.terms));
+  }
+  const std::string failures = to_text(asked.faults);
+  return failures.empty() ? text : text + fmt::format("no answer: {}\n", failures);
+}
+
+nlohmann::json answers_to_json(const jobs::MethodResult& method) {
+  const judge::Judgement& asked = method.judgement;
+  return {{"method", method.name},
+          {"queries", asked.queries},
+          {"yes", asked.collisions},
+          {"no", noes_of(asked)},
+          {"undecided", asked.undecided()},
+          {"errors", asked.errors_at_queries()},
+          {"unasked", unasked_of(asked)},
+          {"failures", to_json(asked.faults)},
+          {"unplaced_crashes", asked.unplaced_crashes},
+          {"ns_per_query", asked.nanoseconds_per_query()}};
 }
 
 std::string truth_header() {

@@ -55,6 +55,15 @@ namespace touchstone::verify::report {
 /// `truth`, of each source and fault the first Judgement::most_kept.
 [[nodiscard]] nlohmann::json to_json(const std::vector<jobs::CertifyResult>& results);
 
+/// The answers of a solver without a truth: their number by verdict, those that are missing, by the
+/// reason, and their time. A missing answer counts as undecided or as an error
+/// (judge::verdict_of).
+[[nodiscard]] std::string answers_to_text(const jobs::MethodResult& method);
+
+/// The same: `method`, `queries`, `yes`, `no`, `undecided`, `errors`, `unasked`, `failures`,
+/// `unplaced_crashes`, `ns_per_query`.
+[[nodiscard]] nlohmann::json answers_to_json(const jobs::MethodResult& method);
+
 /// The header of the truth as CSV: `file,index,kind,collides,toi_lower,toi_upper`.
 [[nodiscard]] std::string truth_header();
 

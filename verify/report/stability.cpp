@@ -213,7 +213,6 @@ StabilityResult measure_stability(const StabilityOptions& options) {
   if (options.seconds > 0.0) {
     budget = jobs::Budget(options.seconds, certify_options.solvers, certify_options.threads);
   }
-  certify_options.is_short_of_time = budget.is_limited();
   const auto stopped = [&] { return base::is_stopped(certify_options.stop) || budget.is_over(); };
   std::size_t done = 0;
   certify_options.on_progress = [&](double fraction) {

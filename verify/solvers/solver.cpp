@@ -23,10 +23,6 @@ namespace {
 
 using WallClock = std::chrono::steady_clock;
 
-/// The time that a batch of queries should take.
-constexpr double span_seconds = 0.01;
-constexpr double longest_span = 1e6;
-
 fast::MethodOptions with_separation(fast::MethodOptions options, const SolveRequest& request) {
   options.separation = request.separation;
   return options;
@@ -399,15 +395,7 @@ SolveReply Solver::solve_timed(const SolveRequest& request, std::span<fast::Answ
   SolverTime time = time_of([&] { reply = solve(request, answers); });
   if (!is_timed()) time.processor_nanoseconds = 0.0;
   reply.time = reply.time.value_or(time);
-  if (!answers.empty()) {
-    pace_ = reply.time.value().wall_seconds / static_cast<double>(answers.size());
-  }
   return reply;
-}
-
-std::size_t Solver::good_span() const {
-  const double queries = span_seconds / std::max(pace_.load(), span_seconds / longest_span);
-  return std::max<std::size_t>(1, static_cast<std::size_t>(queries));
 }
 
 std::unique_ptr<Solver> solver_in_process(const fast::Method& method,

@@ -113,11 +113,6 @@ class Solver {
   [[nodiscard]] SolveReply solve_timed(const SolveRequest& request,
                                        std::span<fast::Answer> answers) const;
 
-  /// The size of the next batch, by the pace of the latest solve_timed(): as many as take some
-  /// milliseconds. Few for slow solvers, so that all cores have work and an interrupt costs little;
-  /// many for fast ones, so that neither clock nor child process shows in the time.
-  [[nodiscard]] std::size_t good_span() const;
-
   /// The output of its child processes since the last call, which clears it. Not to be called
   /// while another thread is in solve().
   [[nodiscard]] virtual CapturedOutput take_output() const { return {}; }
@@ -131,8 +126,6 @@ class Solver {
 
   std::string name_;
   fast::MethodInfo info_;
-  /// Wall-clock seconds a query, of the latest call; a guess before there is one.
-  mutable std::atomic<double> pace_ = 1.0;
   mutable std::atomic<double> allowance_ = std::numeric_limits<double>::infinity();
 };
 

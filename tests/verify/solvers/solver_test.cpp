@@ -87,21 +87,6 @@ TEST(Solver, AnExceptionCostsOneQuery) {
   EXPECT_EQ(to_text(outcome.reply.failures[0].failure), "exception: thrown by a solver");
 }
 
-TEST(Solver, SpansAreShortForSlowAndLongForFastSolvers) {
-  const FunctionMethod slow([](Kind, const Query&) -> Answer {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    return {};
-  });
-  const FunctionMethod fast_one(echo);
-  const auto slow_solver = solver_in_process(slow, {});
-  const auto fast_solver = solver_in_process(fast_one, {});
-  EXPECT_EQ(fast_solver->good_span(), 1U) << "not known yet";
-  static_cast<void>(ask(*slow_solver, 4));
-  static_cast<void>(ask(*fast_solver, 1000));
-  EXPECT_LE(slow_solver->good_span(), 2U);
-  EXPECT_GE(fast_solver->good_span(), 1000U);
-}
-
 // ---- In child processes -------------------------------------------------------------------------
 
 constexpr auto vf = Kind::vertex_face;
