@@ -172,12 +172,12 @@ class StreamRun {
   [[nodiscard]] bool judges() const { return arguments_.preset == Preset::certify; }
 
   /// True if the only file that the run is for cannot be written.
-  [[nodiscard]] bool is_in_vain() const {
+  [[nodiscard]] bool has_lost_results() const {
     return !judges() && (answers_.failed() || proof_.failed());
   }
-  /// Ends the source: the failure is reported already.
-  void require_use() const {
-    if (is_in_vain()) throw std::runtime_error("the results cannot be written");
+  /// Ends the source then; the failure is reported already.
+  void require_results() const {
+    if (has_lost_results()) throw std::runtime_error("the results cannot be written");
   }
 
   [[nodiscard]] bool has_baseline() const { return !arguments_.baseline_file.empty(); }
@@ -200,7 +200,7 @@ class StreamRun {
     options.on_progress = progress;
     set_sinks(source, options);
     jobs::CertifyResult result = jobs::certify(source, options);
-    if (is_in_vain()) {
+    if (has_lost_results()) {
       result.errors = 0;
     } else if (result.error) {
       report_error(*result.error);
@@ -218,7 +218,7 @@ class StreamRun {
     if (proof_) {
       options.on_certificates = [this](std::string_view text) {
         proof_.write(text);
-        require_use();
+        require_results();
       };
     }
     if (view_) {
@@ -238,7 +238,7 @@ class StreamRun {
       }
       if (!answers_) return;
       answers_.write(solvers::answer_row(source.name(), index, source.kind(), answer, failure));
-      require_use();
+      require_results();
     };
   }
 
@@ -257,11 +257,11 @@ class StreamRun {
 
   void add(jobs::CertifyResult result) {
     sum_ += result;
-    results_.push_back(std::move(result));
+    if (judges()) results_.push_back(std::move(result));
   }
 
   [[nodiscard]] bool stopped() const {
-    return io::interrupted() || budget_.is_over() || is_in_vain() ||
+    return io::interrupted() || budget_.is_over() || has_lost_results() ||
            (sum_.errors != 0 && !arguments_.sources.keep_going);
   }
 
@@ -490,9 +490,9 @@ class StreamRun {
   report::BaselineChange change_;
   jobs::Budget budget_;
   base::Deadline deadline_;
-  std::size_t unjudged_ = 0;             ///< sources after the latest one
-  std::vector<Separation> separations_;  ///< of the sources that were opened
-  std::vector<jobs::CertifyResult> results_;
+  std::size_t unjudged_ = 0;                  ///< sources after the latest one
+  std::vector<Separation> separations_;       ///< of the sources that were opened
+  std::vector<jobs::CertifyResult> results_;  ///< of a run that judges
   jobs::CertifyResult sum_;
 };
 
