@@ -43,10 +43,15 @@ function(touchstone_for_python target)
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ${TOUCHSTONE_BUILD_PYTHON})
 endfunction()
 
-# touchstone_compile_together(TARGET): several sources of the target as one unit, which reads their headers once, if
-# TOUCHSTONE_UNITY_BUILD is on. (CMAKE_UNITY_BUILD does so everywhere: preset lint.)
+# touchstone_compile_together(TARGET [PLANTED]): several sources of the target as one unit, which reads their headers once,
+# if TOUCHSTONE_UNITY_BUILD is on. (CMAKE_UNITY_BUILD does so everywhere: preset lint.) PLANTED: the tests plant faults in
+# its objects (tests/faults), which then have one source each.
 function(touchstone_compile_together target)
-  if(TOUCHSTONE_UNITY_BUILD)
+  set(plants FALSE)
+  if("${ARGN}" STREQUAL PLANTED AND TOUCHSTONE_BUILD_TESTS AND NOT "${TOUCHSTONE_FAULTS}" STREQUAL none)
+    set(plants TRUE)
+  endif()
+  if(TOUCHSTONE_UNITY_BUILD AND NOT plants)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   endif()
 endfunction()

@@ -83,9 +83,9 @@ bool divides(const Form& g, Form p) {
 
 // ---- Vectors ------------------------------------------------------------------------------------
 
-using Vector = std::array<Form, 3>;
+using FormVector = std::array<Form, 3>;
 
-Vector operator-(Vector a, const Vector& b) {
+FormVector operator-(FormVector a, const FormVector& b) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     a[axis].resize(std::max(a[axis].size(), b[axis].size()));
     for (std::size_t k = 0; k < b[axis].size(); ++k) a[axis][k] -= b[axis][k];
@@ -93,28 +93,28 @@ Vector operator-(Vector a, const Vector& b) {
   return a;
 }
 
-Vector operator*(Vector a, const Form& factor) {
+FormVector operator*(FormVector a, const Form& factor) {
   for (Form& x : a) x = x * factor;
   return a;
 }
 
-Form dot(const Vector& a, const Vector& b) {
+Form dot(const FormVector& a, const FormVector& b) {
   const Form sum = add_product(a[0] * b[0], a[1], b[1]);
   return add_product(sum, a[2], b[2]);
 }
 
-Form cross(const Vector& a, const Vector& b, std::size_t axis) {
+Form cross(const FormVector& a, const FormVector& b, std::size_t axis) {
   const std::size_t next = (axis + 1) % 3;
   const std::size_t last = (axis + 2) % 3;
   return subtract_product(a[next] * b[last], a[last], b[next]);
 }
 
-Vector cross(const Vector& a, const Vector& b) {
+FormVector cross(const FormVector& a, const FormVector& b) {
   return {cross(a, b, 0), cross(a, b, 1), cross(a, b, 2)};
 }
 
-Vector unit(std::size_t axis) {
-  Vector result{Form{0}, Form{0}, Form{0}};
+FormVector unit(std::size_t axis) {
+  FormVector result{Form{0}, Form{0}, Form{0}};
   result[axis][0] = 1;
   return result;
 }
@@ -150,10 +150,10 @@ Form denominator_of(const Curve& curve) {
 }
 
 /// `factor` times the curve's position times its denominator.
-Vector numerator_of(const Curve& curve, const mpz_class& factor) {
+FormVector numerator_of(const Curve& curve, const mpz_class& factor) {
   mpz_class weight_factor = 1;
   include_denominators(weight_factor, curve.weights);
-  Vector result;
+  FormVector result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Form c;
     c.reserve(curve.control.size());
@@ -207,7 +207,7 @@ class Proof {
     }
     reach_ = {scaled(certificate_.separation.distance, factor)};
     for (const Form& denominator : denominators) reach_ = reach_ * denominator;
-    std::array<Vector, 4> points;
+    std::array<FormVector, 4> points;
     for (std::size_t i = 0; i < curves.size(); ++i) {
       points[i] = numerator_of(curves[i], factor);
       for (const Form& denominator : denominators) {
@@ -275,25 +275,25 @@ class Proof {
 
   /// The normal N = a×b of the polygon. N·w is the same for all corners: N is orthogonal to a and
   /// b, hence also to w_3 − w_0 = b − a.
-  [[nodiscard]] Vector normal() const {
+  [[nodiscard]] FormVector normal() const {
     return cross(corners_[1] - corners_[0], corners_[2] - corners_[0]);
   }
 
   [[nodiscard]] bool is_tetrahedron() const { return certificate_.query.kind == Kind::tetrahedron; }
 
   /// The next corner in cyclic order.
-  [[nodiscard]] const Vector& next(std::size_t corner) const {
+  [[nodiscard]] const FormVector& next(std::size_t corner) const {
     return corners_[(corner + 1) % corners_.size()];
   }
 
   /// The direction of a subinterval's feature, but for its sign.
-  [[nodiscard]] Vector direction(const Subinterval& subinterval) const {
-    const Vector& w = corners_[subinterval.corners[0]];
-    const Vector& other = corners_[subinterval.corners[1]];
+  [[nodiscard]] FormVector direction(const Subinterval& subinterval) const {
+    const FormVector& w = corners_[subinterval.corners[0]];
+    const FormVector& other = corners_[subinterval.corners[1]];
     if (subinterval.feature == Feature::vertex) return w;
     if (subinterval.feature == Feature::face) return normal();
     if (subinterval.feature == Feature::axis) return unit(subinterval.axis);
-    const Vector e = other - w;
+    const FormVector e = other - w;
     if (subinterval.feature == Feature::cross) return cross(unit(subinterval.axis), e);
     // The part of w that is perpendicular to e, times |e|².
     return w * dot(e, e) - e * dot(w, e);
@@ -301,7 +301,7 @@ class Proof {
 
   /// D (σ·d) for every vector σ of signs, without those that are surely equal; the greatest is
   /// D‖d‖* in linf. (D is enlarged as the corners are.)
-  [[nodiscard]] std::vector<Form> reaches(const Vector& d) const {
+  [[nodiscard]] std::vector<Form> reaches(const FormVector& d) const {
     std::vector<Form> sums{Form{0}};
     if (certificate_.separation.distance == 0) return sums;
     for (const Form& x : d) {
@@ -317,7 +317,7 @@ class Proof {
   }
 
   /// value − D² |d|².
-  [[nodiscard]] Form less_square(const Form& value, const Vector& d) const {
+  [[nodiscard]] Form less_square(const Form& value, const FormVector& d) const {
     return subtract_product(value, dot(d, d), reach_ * reach_);
   }
 
@@ -328,10 +328,10 @@ class Proof {
   /// the volume is positive.
   void prove_separation(const Subinterval& subinterval) {
     if (is_tetrahedron()) return prove_positive(volume());
-    const Vector d = direction(subinterval) * Form{subinterval.is_negative ? -1 : 1};
+    const FormVector d = direction(subinterval) * Form{subinterval.is_negative ? -1 : 1};
     const bool is_l2 = certificate_.separation.is_l2;
     const std::vector<Form> sums = is_l2 ? std::vector<Form>{Form{0}} : reaches(d);
-    for (const Vector& w : corners_) {
+    for (const FormVector& w : corners_) {
       const Form value = dot(d, w);
       for (const Form& sum : sums) prove_positive(value - sum);
       if (is_l2 && certificate_.separation.distance != 0)
@@ -386,12 +386,12 @@ class Proof {
   }
 
   void prove_triangle(const Contact& contact) {
-    const Vector& a = corners_[contact.corners[0]];
-    const Vector& b = corners_[contact.corners[1]];
-    const Vector& c = corners_[contact.corners[2]];
+    const FormVector& a = corners_[contact.corners[0]];
+    const FormVector& b = corners_[contact.corners[1]];
+    const FormVector& c = corners_[contact.corners[2]];
     const std::size_t axis = contact.axis;
-    const Vector weights{cross(b, c, axis), cross(c, a, axis), cross(a, b, axis)};
-    const Vector ones{Form{1}, Form{1}, Form{1}};
+    const FormVector weights{cross(b, c, axis), cross(c, a, axis), cross(a, b, axis)};
+    const FormVector ones{Form{1}, Form{1}, Form{1}};
     const int sign_of_sum = sign(dot(weights, ones));
     if (sign_of_sum == 0) reject("the triangle's normal is 0 on this axis");
     // det(a,b,c), by its minors of this axis
@@ -404,8 +404,8 @@ class Proof {
   }
 
   void prove_segment(const Contact& contact) {
-    const Vector& a = corners_[contact.corners[0]];
-    const Vector& b = corners_[contact.corners[1]];
+    const FormVector& a = corners_[contact.corners[0]];
+    const FormVector& b = corners_[contact.corners[1]];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (sign(cross(a, b, axis)) != 0) reject("the origin is not on the segment's line");
     }
@@ -414,25 +414,25 @@ class Proof {
 
   /// Proves |w| ≤ D.
   void prove_vertex(const Contact& contact) {
-    const Vector& w = corners_[contact.corners[0]];
+    const FormVector& w = corners_[contact.corners[0]];
     prove_near(dot(w, w), unit(0));
   }
 
   /// Proves that the foot of the perpendicular from the origin on the edge's line is on the edge
   /// and within D.
   void prove_edge(const Contact& contact) {
-    const Vector& a = corners_[contact.corners[0]];
-    const Vector& b = corners_[contact.corners[1]];
-    const Vector e = b - a;
+    const FormVector& a = corners_[contact.corners[0]];
+    const FormVector& b = corners_[contact.corners[1]];
+    const FormVector e = b - a;
     if (sign(dot(a, e)) > 0 || sign(dot(b, e)) < 0) reject("the nearest point is not inside");
-    const Vector product = cross(a, b);
+    const FormVector product = cross(a, b);
     prove_near(dot(product, product), e);
   }
 
   /// Proves that the foot of the perpendicular from the origin on the face's plane is in the face
   /// and within D.
   void prove_face() {
-    const Vector n = normal();
+    const FormVector n = normal();
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       const Form inwards = dot(n, cross(corners_[i], next(i)));
       if (sign(inwards) < 0) reject("the nearest point is not inside");
@@ -442,7 +442,7 @@ class Proof {
   }
 
   /// Proves square ≤ D² |base|², where base is not 0.
-  void prove_near(const Form& square, const Vector& base) {
+  void prove_near(const Form& square, const FormVector& base) {
     if (sign(dot(base, base)) == 0) reject("the edge's or the face's direction is 0");
     if (sign(less_square(square, base)) > 0) reject("the place is farther than the distance");
   }
@@ -450,12 +450,12 @@ class Proof {
   /// Proves that no axis separates the polygon from the cube of the distance.
   void prove_axes() {
     if (certificate_.separation.is_l2) reject("axes prove nothing of the distance in l2");
-    std::vector<Vector> axes{normal(), unit(0), unit(1), unit(2)};
+    std::vector<FormVector> axes{normal(), unit(0), unit(1), unit(2)};
     for (std::size_t i = 0; i < corners_.size(); ++i) {
-      const Vector side = next(i) - corners_[i];
+      const FormVector side = next(i) - corners_[i];
       for (std::size_t axis = 0; axis < 3; ++axis) axes.push_back(cross(unit(axis), side));
     }
-    for (const Vector& axis : axes) {
+    for (const FormVector& axis : axes) {
       if (!is_reached(axis) || !is_reached(axis * Form{-1})) {
         reject("an axis separates, or is not seen not to");
       }
@@ -463,9 +463,9 @@ class Proof {
   }
 
   /// True if d·w ≤ D‖d‖* is proved for some corner w; one σ is enough.
-  bool is_reached(const Vector& d) {
+  bool is_reached(const FormVector& d) {
     for (const Form& sum : reaches(d)) {
-      for (const Vector& w : corners_) {
+      for (const FormVector& w : corners_) {
         const Form gap = sum - dot(d, w);
         if (divides(g_, gap) || is_positive(on_interval(gap))) return true;
       }
@@ -479,7 +479,7 @@ class Proof {
   std::size_t line_;
   /// D, enlarged as the corners are.
   Form reach_;
-  std::vector<Vector> corners_;
+  std::vector<FormVector> corners_;
   /// The reason why is_positive failed.
   const char* doubt_ = "";
   /// The interval of the current part: numerators of start and length, and their denominator.
