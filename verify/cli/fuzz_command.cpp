@@ -470,8 +470,8 @@ void add(CLI::App& app, Status& status) {
       "touchstone fuzz --plugin ./libsolver.so --only false_negative --seconds 600\n"
       "touchstone fuzz --plugin ./libsolver.so --exact --json findings.json --corpus data\n"
       "touchstone fuzz --plugin ./libsolver.so --degree 2 --degree 3",
-      "The solver runs in a child process. Findings are simplified, grouped by their probable "
-      "cause, and printed with one example per group. The same --seed and --queries give the same "
+      "The solver runs in a child process. Findings are simplified, grouped by fault, kind and "
+      "shape, and printed with one example per group. The same --seed and --queries give the same "
       "findings. The search and the judgement: docs/testing.md.\n"
       "Exit status: 0 nothing found (130: interrupted), 1 findings, 2 bad input or usage, nothing "
       "judged.");

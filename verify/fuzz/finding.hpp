@@ -58,13 +58,6 @@ struct MissingBounds {
   [[nodiscard]] bool any() const { return lower || upper; }
 };
 
-/// The nearest scales at which a finding's query, times a power of two, is answered correctly:
-/// binary exponents of the greatest coordinate, below and above; empty where none is known.
-struct ScaleRange {
-  std::optional<int> end_below = std::nullopt;
-  std::optional<int> end_above = std::nullopt;
-};
-
 /// A fault of a solver, confirmed by the oracle.
 struct Finding {
   judge::Fault what = judge::Fault::false_negative;
@@ -77,7 +70,6 @@ struct Finding {
   MissingBounds missing = {};
   /// True for a late time that is late slightly (judge::slight_lateness).
   bool is_slight = false;
-  ScaleRange scales = {};     ///< of the simplest query
   std::size_t group = 0;      ///< in FuzzResult::groups
   double seconds = 0.0;       ///< wall-clock time of the run when it was found
   std::uint64_t queries = 0;  ///< asked by then, itself included

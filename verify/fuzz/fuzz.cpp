@@ -35,10 +35,9 @@ using fast::CertifiedResult;
 using fast::Verdict;
 using generate::Random;
 
-/// Queries of a block before the images: few enough that slow solvers end in time, and that the
-/// scheduler learns early.
+/// Queries of a block before the images: few enough that slow solvers end in time.
 constexpr std::size_t block_queries = 256;
-/// Queries that one draw of the scheduler stands for.
+/// Queries that one draw of a generator stands for.
 constexpr std::size_t slice_queries = 16;
 /// The number of slices after which a block is asked though it is not full, because most of its
 /// queries are outside the terms.
@@ -51,12 +50,8 @@ constexpr double seconds_to_judge = 1.0;
 constexpr double shrink_share = 0.1;
 /// One query in this number is asked again as an image.
 constexpr std::size_t queries_an_image = 8;
-constexpr double oracle_work = 40.0;
-/// The approximate microseconds of one of the steps that a solver reports, such as a box.
-constexpr double check_work = 0.05;
-
-/// The value of a finding relative to a query of a new coverage key.
-constexpr double finding_reward = 50.0;
+/// One made query in this number is kept, to be mutated.
+constexpr std::size_t queries_a_kept_one = 16;
 
 /// Keeps mutated coordinates away from overflow and underflow.
 bool is_moderate(std::span<const double> numbers) {
@@ -77,10 +72,10 @@ struct Image {
 struct FuzzBlock {
   QueryShape shape;
   std::vector<double> numbers;
-  std::vector<std::size_t> arms;  ///< by query: whose it is
-  std::vector<Image> images;      ///< the last queries
+  std::vector<std::size_t> makers;  ///< by query: its generator
+  std::vector<Image> images;        ///< the last queries
 
-  [[nodiscard]] std::size_t size() const { return arms.size(); }
+  [[nodiscard]] std::size_t size() const { return makers.size(); }
   [[nodiscard]] std::size_t made() const { return size() - images.size(); }
   [[nodiscard]] Queries queries() const { return {shape, numbers}; }
   /// Query i as the only one.
@@ -91,9 +86,9 @@ struct FuzzBlock {
     return i < made() ? nullptr : &images[i - made()];
   }
 
-  void add(const AnyQuery& query, std::size_t arm) {
+  void add(const AnyQuery& query, std::size_t maker) {
     numbers.insert(numbers.end(), query.numbers().begin(), query.numbers().end());
-    arms.push_back(arm);
+    makers.push_back(maker);
   }
 
   /// Leaves the first `count` queries.
@@ -101,7 +96,7 @@ struct FuzzBlock {
     if (count >= size()) return;
     images.resize(count > made() ? count - made() : 0);
     numbers.resize(count * shape.numbers_of_query());
-    arms.resize(count);
+    makers.resize(count);
   }
 };
 
@@ -115,7 +110,6 @@ class FuzzBlockMaker {
         hangs_(options.query_limit_seconds),
         generators_(generators),
         context_(options.separation),
-        scheduler_(generators, generate::mix(options.seed) + 1),
         random_(generate::mix(options.seed)) {
     for (const AnyQuery& query : options.corpus) keep(query);
   }
@@ -128,28 +122,20 @@ class FuzzBlockMaker {
         throw std::runtime_error("fuzz: no generator makes queries within the solver's terms");
       }
       if (slices >= most_slices) break;
-      add_slice(scheduler_.choose(), block);
+      add_slice(draws::below(random_, generators_.size()), block);
     }
     add_images(block);
     return block;
   }
 
-  /// Records the reward and the work of a query of the block.
-  void learn(std::size_t arm, double reward, double work) {
-    scheduler_.learn(arm, reward, generators_[arm].work + work);
-  }
-
   /// Notes a hang at a query of the block.
-  void note_hang(const QueryShape& shape, std::size_t arm) { hangs_.add(sort_of(shape, arm)); }
+  void note_hang(const QueryShape& shape, std::size_t maker) { hangs_.add(sort_of(shape, maker)); }
 
   /// Seconds that a query may take now.
   [[nodiscard]] double query_limit() const { return hangs_.seconds(); }
   /// Queries that were made and not asked.
   [[nodiscard]] std::uint64_t outside() const { return outside_; }
   [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
-
-  /// Keeps a query as one to mutate.
-  void remember(const AnyQuery& query) { context_.pool(query.shape()).add(query); }
 
  private:
   static std::vector<QueryShape> answered(std::vector<QueryShape> shapes,
@@ -171,24 +157,25 @@ class FuzzBlockMaker {
     }
   }
 
-  [[nodiscard]] std::string sort_of(const QueryShape& shape, std::size_t arm) const {
-    return fmt::format("{} {}", generators_[arm].name, to_text(shape));
+  [[nodiscard]] std::string sort_of(const QueryShape& shape, std::size_t maker) const {
+    return fmt::format("{} {}", generators_[maker].name, to_text(shape));
   }
 
-  /// Adds a slice of a generator's queries. Queries outside the terms lower the generator's reward.
-  void add_slice(std::size_t arm, FuzzBlock& block) {
+  /// Adds a slice of a generator's queries within the terms.
+  void add_slice(std::size_t maker, FuzzBlock& block) {
     for (std::size_t i = 0; i < slice_queries; ++i) {
       const AnyQuery query =
-          judge::as_asked(terms_, generators_[arm].make(block.shape, context_, random_));
-      const bool is_outside = !judge::admits(terms_, query, context_.separation());
-      const bool is_left_out = !is_outside && hangs_.leaves_out(sort_of(block.shape, arm));
-      outside_ += is_outside ? 1U : 0U;
-      left_out_ += is_left_out ? 1U : 0U;
-      if (is_outside || is_left_out) {
-        learn(arm, 0.0, 0.0);
-        continue;
+          judge::as_asked(terms_, generators_[maker].make(block.shape, context_, random_));
+      if (!judge::admits(terms_, query, context_.separation())) {
+        ++outside_;
+      } else if (hangs_.leaves_out(sort_of(block.shape, maker))) {
+        ++left_out_;
+      } else {
+        block.add(query, maker);
+        if (one_in(random_, queries_a_kept_one) && is_moderate(query.numbers())) {
+          context_.pool(block.shape).add(query);
+        }
       }
-      block.add(query, arm);
     }
   }
 
@@ -202,7 +189,7 @@ class FuzzBlockMaker {
       if (auto numbers = image(symmetry, block.query(i)))
         changed = {block.shape, *std::move(numbers)};
       if (!judge::admits(terms_, changed, context_.separation())) continue;
-      block.add(changed, block.arms[i]);
+      block.add(changed, block.makers[i]);
       block.images.push_back({.origin = i, .symmetry = symmetry});
     }
   }
@@ -212,7 +199,6 @@ class FuzzBlockMaker {
   solvers::HangLimits hangs_;
   const std::vector<Generator>& generators_;
   GeneratorContext context_;
-  Scheduler scheduler_;
   Random random_;
   std::size_t count_ = 0;
   std::uint64_t outside_ = 0;
@@ -240,9 +226,7 @@ class BoundHabit {
   std::uint64_t missing_ = 0;
 };
 
-Plainness plainness_of(const Finding& finding) {
-  return plainness(finding.simplest.query, finding.original.query);
-}
+Plainness plainness_of(const Finding& finding) { return plainness(finding.simplest.query); }
 
 /// Puts the most harmful group first, then that with the plainest example.
 void sort_groups(fast::Promise promise, FuzzResult& result) {
@@ -344,7 +328,7 @@ class FuzzRun {
     limit_ = maker_.query_limit();
     for (const auto& [position, failure] : run.failures) {
       if (failure.kind != judge::Fault::hang) continue;
-      maker_.note_hang(block_.shape, block_.arms[position]);
+      maker_.note_hang(block_.shape, block_.makers[position]);
     }
     if (end_.is_over() || is_stopped()) result_.unanswered = block_.size() - run.answered;
     judge(run);
@@ -401,7 +385,7 @@ class FuzzRun {
   }
 
   void judge_query(std::size_t i, const judge::Failure* failure) {
-    GeneratorStatistics& statistics = result_.generators[block_.arms[i]];
+    GeneratorStatistics& statistics = result_.generators[block_.makers[i]];
     ++result_.queries;
     ++statistics.queries;
     result_.images += block_.image(i) != nullptr ? 1U : 0U;
@@ -409,53 +393,42 @@ class FuzzRun {
       ++result_.collisions;
       ++statistics.collisions;
     }
-    double work = 0.0;
-    double reward = 0.0;
     if (failure != nullptr) {
-      reward += report_failure(i, *failure);
+      report_failure(i, *failure);
     } else {
-      reward += examine_answer(i, work);
+      examine_answer(i);
     }
-    const std::uint32_t before =
-        coverage_.add(coverage_key(block_.query(i), judged_[i], answers_[i]));
-    reward += 1.0 / (1.0 + before);
-    if (before == 0) {
-      ++statistics.coverage_keys;
-      if (is_moderate(block_.queries().row(i))) maker_.remember({block_.queries(), i});
-    }
-    work += check_work * static_cast<double>(answers_[i].checks);
-    maker_.learn(block_.arms[i], reward, work);
   }
 
-  /// Looks for every fault of an answer. Returns the reward, and adds the work.
-  double examine_answer(std::size_t i, double& work) {
+  /// Looks for every fault of an answer.
+  void examine_answer(std::size_t i) {
     const judge::Question question{block_.query(i), options_.separation};
     const bool is_drawn = random_.unit() < oracle_share_;
     const MissingBounds missing = missing_bounds(answers_[i]);
     if (!is_drawn && !missing.any() &&
         is_beyond_doubt(question, judged_[i], answers_[i], standard_)) {
-      return 0.0;
+      return;
     }
-    work += oracle_work;
     ++result_.judged_by_oracle;
     const exact::Decision verdict = exact::decide(question.query, 0, question.separation);
     const judge::GroundTruth truth = judge::truth_of(result_.queries, verdict);
-    double reward = 0.0;
     if (name_ != judge_name()) {
       const auto of_judge = diagnose(question, truth, answer_of(judged_[i]),
                                      judge::standard_of(fast::certified_info()));
-      if (of_judge) reward += report(i, {*of_judge, judge_name()}, verdict);
+      if (of_judge) report(i, {*of_judge, judge_name()}, verdict);
     }
-    auto diagnosis = diagnose(question, truth, answers_[i], standard_);
-    if (!diagnosis && missing.any()) {
-      diagnosis = {judge::Fault::not_finite,
-                   fmt::format("{} is NaN, but the solver gives it with other collisions",
-                               missing.lower ? "toi_lower" : "toi_upper")};
-      return reward + report(i, {*diagnosis, name_, missing}, verdict);
+    if (auto diagnosis = diagnose(question, truth, answers_[i], standard_)) {
+      explain_asymmetry(i, *diagnosis);
+      report(i, {*diagnosis, name_}, verdict);
+    } else if (missing.any()) {
+      report(i,
+             {{judge::Fault::not_finite,
+               fmt::format("{} is NaN, but the solver gives it with other collisions",
+                           missing.lower ? "toi_lower" : "toi_upper")},
+              name_,
+              missing},
+             verdict);
     }
-    if (!diagnosis) return reward;
-    explain_asymmetry(i, *diagnosis);
-    return reward + report(i, {*diagnosis, name_}, verdict);
   }
 
   MissingBounds missing_bounds(const Answer& answer) {
@@ -476,10 +449,10 @@ class FuzzRun {
                                     to_text(image->symmetry), to_text(other));
   }
 
-  double report_failure(std::size_t i, const judge::Failure& failure) {
+  void report_failure(std::size_t i, const judge::Failure& failure) {
     ++result_.judged_by_oracle;
-    return report(i, {diagnose_failure(failure, limit_), name_},
-                  exact::decide(block_.queries(), i, options_.separation));
+    report(i, {diagnose_failure(failure, limit_), name_},
+           exact::decide(block_.queries(), i, options_.separation));
   }
 
   /// The method that is wrong, and how.
@@ -496,32 +469,28 @@ class FuzzRun {
                                                                       answer, standard_.terms));
   }
 
-  /// Counts a finding, and keeps the first of a class. Returns the reward, which is lower for known
-  /// findings.
-  double report(std::size_t i, const Charge& charge, const exact::Decision& verdict) {
+  /// Counts a finding, and keeps the first of a class.
+  void report(std::size_t i, const Charge& charge, const exact::Decision& verdict) {
     if (!seeks(options_, charge.diagnosis.what)) {
       ++result_.other_findings;
-      return 0.0;
+      return;
     }
     ++result_.all_findings;
-    ++result_.generators[block_.arms[i]].findings;
-    const Class what{
-        std::string(charge.method), charge.diagnosis.what, to_text(block_.shape),
-        judged_[i].stage,           block_.arms[i],        is_slight(charge, answers_[i], verdict)};
-    const auto [known, is_new] = classes_.try_emplace(what);
-    Seen& seen = known->second;
-    if (!is_new) {
-      ++result_.groups[seen.group].count;
+    ++result_.generators[block_.makers[i]].findings;
+    const Class what{std::string(charge.method), charge.diagnosis.what,
+                     to_text(block_.shape),      judged_[i].stage,
+                     block_.makers[i],           is_slight(charge, answers_[i], verdict)};
+    if (const auto known = classes_.find(what); known != classes_.end()) {
+      ++result_.groups[known->second].count;
     } else if (!has_found_enough()) {
-      seen.group = keep(i, charge, verdict);
+      classes_[what] = keep(i, charge, verdict);
     }
-    return finding_reward / static_cast<double>(++seen.count);
   }
 
   /// Returns the finding's group.
   std::size_t keep(std::size_t i, const Charge& charge, const exact::Decision& verdict) {
     const bool of_judge = charge.method == judge_name() && name_ != judge_name();
-    const std::string& generator = result_.generators[block_.arms[i]].name;
+    const std::string& generator = result_.generators[block_.makers[i]].name;
     Finding finding{.what = charge.diagnosis.what,
                     .separation = options_.separation,
                     .method = std::string(charge.method),
@@ -553,26 +522,19 @@ class FuzzRun {
     return known->second;
   }
 
-  /// Simplifies its query, and finds the scales at which it is wrong.
+  /// Simplifies its query.
   void make_simpler(Finding& finding) {
     if (options_.shrink_seconds == 0.0) return;
     const double begin = seconds();
     const double most =
         std::min(options_.shrink_seconds, shrink_share * judging_end_.seconds_left());
     simplify(method_, options_, judging_end_.at_most(most), finding);
-    finding.scales = scale_range(method_, options_, judging_end_.at_most(most), finding);
     result_.shrink_seconds += seconds() - begin;
   }
 
   /// The class of a finding, by its obvious properties: the method that is wrong, the fault, the
   /// shape, the judge's stage, the generator, and whether a late time is slightly late.
   using Class = std::tuple<std::string, judge::Fault, std::string, fast::Stage, std::size_t, bool>;
-
-  /// The findings of a class so far.
-  struct Seen {
-    std::uint64_t count = 0;
-    std::size_t group = 0;  ///< of the first one, which was kept
-  };
 
   const FuzzOptions& options_;
   const fast::Method& method_;
@@ -588,10 +550,9 @@ class FuzzRun {
   base::Deadline end_{
       options_.seconds > 0.0 ? options_.seconds : std::numeric_limits<double>::infinity(),
       options_.clock};
-  CoverageTable coverage_;
   BoundHabit lower_habit_;
   BoundHabit upper_habit_;
-  std::map<Class, Seen> classes_;
+  std::map<Class, std::size_t> classes_;  ///< the group of the first, which was kept
   std::map<Signature, std::size_t> groups_;
   FuzzResult result_;
   // The block at hand.

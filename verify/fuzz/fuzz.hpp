@@ -3,11 +3,11 @@
 /// \file
 /// The search for wrong answers of one solver.
 ///
-/// Blocks of queries come from generators that the scheduler (generators.hpp) prefers by their
-/// results so far. The solver answers them in a child process (solver_process.hpp), the certified
-/// solver judges (recheck.hpp), and the oracle judges a share again, and all doubtful answers. Some
-/// queries are asked once more as an exact image (symmetry.hpp). All queries of a block are of one
-/// shape; by default they are on straight lines.
+/// Blocks of queries come from generators (generators.hpp), all of which are as likely. The solver
+/// answers them in a child process (solver_process.hpp), the certified solver judges (recheck.hpp),
+/// and the oracle judges a share again, and all doubtful answers. Some queries are asked once more
+/// as an exact image (symmetry.hpp). All queries of a block are of one shape; by default they are
+/// on straight lines.
 ///
 /// The same seed gives the same queries and findings on every machine, for any solver that answers
 /// the same: counted work steers the search, and the clock only ends it. (A query near the time
@@ -97,12 +97,11 @@ enum class FuzzEnd : std::uint8_t { time, queries, findings, interrupt };
 struct GeneratorStatistics {
   std::string name;
   std::uint64_t queries = 0;
-  std::uint64_t collisions = 0;     ///< of these, by the judge
-  std::uint64_t coverage_keys = 0;  ///< queries of a new sort: see generators.hpp
-  std::uint64_t findings = 0;       ///< all, kept or not
+  std::uint64_t collisions = 0;  ///< of these, by the judge
+  std::uint64_t findings = 0;    ///< all, kept or not
 };
 
-/// Findings of one cause, as far as it can be told from outside (recheck.hpp).
+/// Findings that look alike from outside (Signature in recheck.hpp).
 struct FindingGroup {
   /// The number of all its findings. A finding with the solver, kind of finding, shape of query,
   /// generator and judge's stage of a kept one is not examined further, but counted in its group.

@@ -110,23 +110,6 @@ std::string command(const Finding& finding, const SolverCall& solver) {
 
 // ---- As text ------------------------------------------------------------------------------------
 
-/// The scales at which the finding's query is wrong, multiplied by powers of two: "wrong while the
-/// greatest coordinate is below 2^-3", "wrong at any scale from 2^-16 to 2^40".
-std::string scale_text(const Finding& finding, const SolverCall& asked) {
-  const auto& [below, above] = finding.scales;
-  if (!below && !above) {
-    const bool is_asked = finding.what != judge::Fault::hang && is_zero(finding.separation) &&
-                          finding.shrinking == Shrinking::complete;
-    if (!is_asked) return "not asked at other scales";
-    return fmt::format("wrong at any scale from 2^{} to 2^{}", least_scale(asked.options.tolerance),
-                       greatest_scale);
-  }
-  std::string text = "wrong while the greatest coordinate is";
-  if (below) text += fmt::format(" above 2^{}", *below + 1);
-  if (above) text += fmt::format("{} below 2^{}", below ? " and" : "", *above);
-  return text;
-}
-
 /// A remark where the simplest query may not be the simplest there is.
 std::string_view shrinking_text(Shrinking shrinking) {
   switch (shrinking) {
@@ -143,10 +126,8 @@ std::string group_table(const FuzzResult& result) {
   io::TextTable table({{"group", 5},
                        io::word_column("finding", 17),
                        {"count", 6},
-                       io::word_column("scale", 9),
                        io::word_column("kind", 11),
                        io::word_column("shape", 9),
-                       io::word_column("contact", 7),
                        {"first after queries", 8}});
   for (std::size_t i = 0; i < result.groups.size(); ++i) {
     const FindingGroup& group = result.groups[i];
@@ -154,27 +135,25 @@ std::string group_table(const FuzzResult& result) {
     const auto first = std::ranges::find(result.findings, i, &Finding::group);
     table.add({std::to_string(i + 1),
                (signature.is_slight ? "slightly " : "") + std::string(to_string(signature.what)),
-               std::to_string(group.count), to_text(signature.ends),
-               signature.kind ? std::string(to_string(*signature.kind)) : "any",
-               to_text(signature.shape), to_text(signature.time), std::to_string(first->queries)});
+               std::to_string(group.count), std::string(to_string(signature.kind)),
+               std::string(to_string(signature.shape)), std::to_string(first->queries)});
   }
   return table.text();
 }
 
-std::string example_text(std::size_t number, const Finding& finding, const SolverCall& asked) {
-  std::string text = fmt::format("\ngroup {}: {}\n  truth: {}\n  {}\n", number, to_line(finding),
-                                 finding.simplest.truth, scale_text(finding, asked));
+std::string example_text(std::size_t number, const Finding& finding) {
+  std::string text = fmt::format("\ngroup {}: {}\n  truth: {}\n", number, to_line(finding),
+                                 finding.simplest.truth);
   text += shrinking_text(finding.shrinking);
   return text + as_points(finding.simplest.query);
 }
 
-std::string findings_text(const FuzzReport& report) {
-  const FuzzResult& result = report.result;
+std::string findings_text(const FuzzResult& result) {
   if (result.all_findings == 0) return "\nno findings\n";
-  std::string text = fmt::format("\n{} findings, in {} groups by probable cause\n\n{}",
-                                 result.all_findings, result.groups.size(), group_table(result));
+  std::string text = fmt::format("\n{} findings, in {} groups\n\n{}", result.all_findings,
+                                 result.groups.size(), group_table(result));
   for (std::size_t i = 0; i < result.groups.size(); ++i) {
-    text += example_text(i + 1, result.findings.at(result.groups[i].best), report.solver);
+    text += example_text(i + 1, result.findings.at(result.groups[i].best));
   }
   return text;
 }
@@ -199,11 +178,6 @@ std::string end_text(const FuzzReport& report) {
 
 // ---- As JSON ------------------------------------------------------------------------------------
 
-template <class Value>
-nlohmann::json or_null(const std::optional<Value>& value) {
-  return value ? nlohmann::json(*value) : nlohmann::json();
-}
-
 nlohmann::json group_json(const FuzzResult& result, const FindingGroup& group) {
   const Signature signature = signature_of(result.findings.at(group.best));
   return {{"what", to_string(signature.what)},
@@ -211,10 +185,8 @@ nlohmann::json group_json(const FuzzResult& result, const FindingGroup& group) {
           {"method", signature.method},
           {"count", group.count},
           {"best", group.best},
-          {"scale", to_text(signature.ends)},
-          {"kind", signature.kind ? nlohmann::json(to_string(*signature.kind)) : nlohmann::json()},
-          {"shape", to_text(signature.shape)},
-          {"time", to_text(signature.time)}};
+          {"kind", to_string(signature.kind)},
+          {"shape", to_string(signature.shape)}};
 }
 
 nlohmann::json answer_json(const fast::Answer& answer) {
@@ -267,10 +239,6 @@ nlohmann::json finding_json(const Finding& finding, const SolverCall& asked) {
                {"queries", finding.queries},
                {"shrinking", to_string(finding.shrinking)},
                {"group", finding.group},
-               {"wrong_until",
-                {{"below", or_null(finding.scales.end_below)},
-                 {"above", or_null(finding.scales.end_above)}}},
-               {"scales", scale_text(finding, asked)},
                {"original", case_json(finding.original)},
                {"solver", solver_json(solver)},
                {"command", command(finding, solver)}});
@@ -302,7 +270,7 @@ std::string to_text(const FuzzReport& report) {
       result.queries, result.seconds, result.images, result.collisions, result.queries_per_second(),
       result.judged_per_second(), result.judged_by_oracle);
   text += end_text(report);
-  text += findings_text(report);
+  text += findings_text(result);
   if (result.outside != 0) {
     text += fmt::format("{} queries outside its terms{}: not asked\n", result.outside,
                         judge::to_text(report.solver.terms));
@@ -326,7 +294,6 @@ nlohmann::json to_json(const FuzzReport& report) {
     generators.push_back({{"name", generator.name},
                           {"queries", generator.queries},
                           {"collisions", generator.collisions},
-                          {"coverage_keys", generator.coverage_keys},
                           {"findings", generator.findings}});
   }
   nlohmann::json findings = nlohmann::json::array(), only = nlohmann::json::array();

@@ -50,8 +50,7 @@ struct FuzzReport {
 [[nodiscard]] std::string to_line(const Finding& finding);
 
 /// The numbers of a run, the reason for an early end, a table of the groups of findings, and the
-/// plainest finding of each group in about ten lines: the fault, the truth, the scales, and the
-/// points.
+/// plainest finding of each group in about ten lines: the fault, the truth and the points.
 [[nodiscard]] std::string to_text(const FuzzReport& report);
 
 /// The whole report. Numbers that may be infinite or NaN are written by io::number_to_json; missing
@@ -65,14 +64,12 @@ struct FuzzReport {
 ///   `toi_lower`, `toi_upper`, `tolerance`), `collides`, `toi` (neighbouring doubles `lower` and
 ///   `upper`), `truth`, `detail`, and `certificate`, a stream that touchstone-check takes;
 /// - `original`: the same of the query as it was found;
-/// - `wrong_until`: `below` and `above`, binary exponents of the greatest coordinate at which it is
-///   right, and `scales`, these in words;
 /// - `solver` (`method`, `plugin`, `promise`, `terms` as options of the command line, `time_error`
 ///   of times that are estimates, the options, and the limits of its process, `memory_limit` in
 ///   bytes), and `command`, which asks again.
 ///
 /// `findings` is a list of these, and a group in `groups` has `best`, a place in `findings`, and in
-/// words its signature (recheck.hpp).
+/// words its Signature (recheck.hpp).
 [[nodiscard]] nlohmann::json to_json(const FuzzReport& report);
 
 }  // namespace touchstone::verify::fuzz

@@ -13,8 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "fast/method.hpp"
-#include "touchstone/certified.hpp"
 #include "touchstone/query.hpp"
 #include "verify/base/any_query.hpp"
 #include "verify/generate/families.hpp"
@@ -24,7 +22,7 @@ namespace touchstone::verify::fuzz {
 
 using base::AnyQuery;
 
-/// Queries of one shape to mutate: some permanent ones, and the latest ones with new coverage.
+/// Queries of one shape to mutate: some permanent ones, and some of the latest.
 class QueryPool {
  public:
   /// Keeps a query permanently.
@@ -78,16 +76,12 @@ struct Generator {
   std::string_view name;
   /// A description of its queries.
   std::string_view about;
-  /// The work of a query: about the microseconds to generate and judge it.
-  double work;
   /// Generates a query of finite coordinates and positive weights: a function of the arguments
   /// alone. \pre a degree above 0
   AnyQuery (*make)(const QueryShape& shape, const GeneratorContext& context,
                    generate::Random& random);
   /// True if it needs a positive separation.
   bool needs_distance = false;
-  /// Its share of the exploration (Scheduler), independent of its results so far.
-  double explored = 1.0;
   /// True if its queries are on curves, unless they must be on straight lines.
   bool is_of_curves = false;
 };
@@ -98,64 +92,7 @@ struct Generator {
 /// The generators with queries for the separation; those of curves only if asked for.
 [[nodiscard]] std::vector<Generator> generators(const Separation& separation, bool on_curves);
 
-// The scheduler directs the search to generators that bring new results.
-//
-// Queries are classified by a *coverage key*: the stage at which the judge decided, the time of
-// impact, the distance of the answer from it, and so on. A query of a rare class is worth more
-// than one of a frequent class. The *scheduler* is a bandit: it draws arms (generators) with a
-// probability that grows with their reward per work, with the most weight on recent work. Every
-// arm keeps a small share, so that late rewards are found; arms with more important findings keep
-// a greater one.
-
-/// The coverage key. That of two queries is the same if these agree: the shape; the stage and
-/// verdict of the judge; the verdict of the answer; to a factor of 256 the time of impact, or its
-/// distance from 1 if that is less; to a factor of 4 the distance of toi_lower below it, and the
-/// tolerance of the answer; whether the contact is on the boundary of (u,v); the number of zero
-/// coordinates, in steps of four; and to a factor of 2^256 the greatest coordinate. (Up to hash
-/// collisions.)
-/// \param query one
-[[nodiscard]] std::uint64_t coverage_key(const Queries& query, const fast::CertifiedResult& judged,
-                                         const fast::Answer& answer);
-
-/// The number of occurrences of each coverage key.
-class CoverageTable {
- public:
-  CoverageTable();
-
-  /// Counts a coverage key, and returns the number of earlier occurrences. Two keys may be confused
-  /// (there are 2^16 hash slots).
-  std::uint32_t add(std::uint64_t coverage_key);
-
- private:
-  std::vector<std::uint32_t> counts_;
-};
-
-/// Chooses among arms. The same calls give the same choices everywhere.
-class Scheduler {
- public:
-  /// An arm for each generator, which has its relative share in the exploration. \pre not empty
-  Scheduler(const std::vector<Generator>& generators, std::uint64_t seed);
-
-  /// The arm to play next.
-  [[nodiscard]] std::size_t choose();
-
-  /// Records the reward and the work of an arm. \pre reward ≥ 0, work > 0
-  void learn(std::size_t arm, double reward, double work);
-
- private:
-  struct Arm {
-    double explored = 0.0;  ///< the share of all draws for exploration
-    double reward = 0.0;
-    double work = 0.0;
-  };
-
-  [[nodiscard]] static double rate(const Arm& arm);
-
-  generate::Random random_;
-  std::vector<Arm> arms_;
-};
-
-// Small perturbations of queries that solvers handled well or just failed.
+// Small perturbations of queries.
 
 /// The double at this number of doubles above x (below, if negative), limited to the greatest
 /// finite magnitude. \pre x is finite

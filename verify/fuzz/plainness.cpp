@@ -1,34 +1,17 @@
 #include "verify/fuzz/plainness.hpp"
-#include "verify/generate/everyday.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
-#include <cstdlib>
+#include <utility>
+
+#include "verify/generate/everyday.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {
 
 using Eigen::Vector3d;
-
-// ---- Size ---------------------------------------------------------------------------------------
-
-/// The distance of an exponent from a range.
-std::uint64_t away(int exponent, int least, int greatest) {
-  return static_cast<std::uint64_t>(std::max({least - exponent, exponent - greatest, 0}));
-}
-
-std::uint64_t drift(const AnyQuery& query, const AnyQuery& original) {
-  constexpr int allowed = 3;
-  const int size = size_exponent(query), of_original = size_exponent(original);
-  if (away(of_original, least_everyday, greatest_everyday) != 0) {
-    return away(size, least_everyday, greatest_everyday);
-  }
-  return away(size, of_original - allowed, of_original + allowed);
-}
-
-// ---- Degeneracy ---------------------------------------------------------------------------------
 
 /// Halves a query that is so large that differences would overflow.
 AnyQuery with_margin(AnyQuery query) {
@@ -52,9 +35,9 @@ double extent(const AnyQuery& query) {
   return result;
 }
 
-/// The query's shape, about 1 in extent: its products neither overflow nor vanish. All coordinates
-/// are 0 if all points coincide.
-AnyQuery shape(const AnyQuery& query) {
+/// The query without its place and size, about 1 in extent: its products neither overflow nor
+/// vanish. All coordinates are 0 if all points coincide.
+AnyQuery normalised(const AnyQuery& query) {
   AnyQuery result = with_margin(query);
   const double size = extent(result);
   const int exponent = size == 0.0 ? 0 : std::ilogb(size);
@@ -92,38 +75,34 @@ Places places_at(const AnyQuery& query, double t) {
 /// below which a triangle's height is.
 constexpr double least_part = 0x1p-10;
 
-std::uint64_t collapsed_triangle(const Places& places) {
+bool is_collapsed_triangle(const Places& places) {
   const Vector3d a = places[2] - places[1];
   const Vector3d b = places[3] - places[1];
   const double longest = std::max({a.norm(), b.norm(), (b - a).norm()});
-  if (longest <= least_part) return 2;
-  return a.cross(b).norm() <= least_part * longest * longest ? 1 : 0;
+  return longest <= least_part || a.cross(b).norm() <= least_part * longest * longest;
 }
 
-std::uint64_t collapsed_edge(const Places& places, std::size_t first) {
-  const Vector3d side = places.at(first + 1) - places.at(first);
-  return side.norm() <= least_part ? 1 : 0;
+bool is_collapsed_edge(const Places& places, std::size_t first) {
+  return (places.at(first + 1) - places.at(first)).norm() <= least_part;
 }
 
-std::uint64_t collapsed_in_shape(const AnyQuery& shape) {
-  std::uint64_t result = 0;
-  if (is_element(shape.kind())) return result;
-  for (const double end : {0.0, 1.0}) {
-    const Places places = places_at(shape, end);
-    result += shape.kind() == Kind::vertex_face
-                  ? collapsed_triangle(places)
-                  : collapsed_edge(places, 0) + collapsed_edge(places, 2);
-  }
-  return result;
+bool is_collapsed(const AnyQuery& query) {
+  if (is_element(query.kind())) return false;
+  return std::ranges::any_of(std::array{0.0, 1.0}, [&](double end) {
+    const Places places = places_at(query, end);
+    return query.kind() == Kind::vertex_face
+               ? is_collapsed_triangle(places)
+               : is_collapsed_edge(places, 0) || is_collapsed_edge(places, 2);
+  });
 }
 
 /// On curves of degree k the volume of the points is a polynomial of degree 3k, and times all
 /// weights one of degree 4k: if it is about 0 at one time more, it is so at all times.
-bool is_coplanar(const AnyQuery& shape) {
+bool is_coplanar(const AnyQuery& query) {
   constexpr double least_volume = 0x1p-20;
-  const std::size_t degree = (shape.shape().is_rational ? 4 : 3) * shape.shape().degree;
+  const std::size_t degree = (query.shape().is_rational ? 4 : 3) * query.shape().degree;
   for (std::size_t i = 0; i <= degree; ++i) {
-    const Places places = places_at(shape, static_cast<double>(i) / static_cast<double>(degree));
+    const Places places = places_at(query, static_cast<double>(i) / static_cast<double>(degree));
     const Vector3d a = places[1] - places[0], b = places[2] - places[0], c = places[3] - places[0];
     const double sizes = a.norm() * b.norm() * c.norm();
     if (std::abs(a.dot(b.cross(c))) > least_volume * sizes) return false;
@@ -131,42 +110,7 @@ bool is_coplanar(const AnyQuery& shape) {
   return true;
 }
 
-// ---- Length -------------------------------------------------------------------------------------
-
-std::uint64_t length(const AnyQuery& query, const std::vector<double>& of_query) {
-  constexpr std::uint64_t of_magnitude = 8, of_coordinate = 2;
-  const auto numbers = query.numbers();
-  const std::size_t step = to_next_control(query);
-  std::uint64_t result = 0;
-  for (const double x : of_query) result += of_magnitude + writing_length(x);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const double x = numbers[i];
-    if (x != 0.0) result += of_coordinate;
-    if (std::signbit(x)) ++result;
-    if (i + step < numbers.size() && x != numbers[i + step]) ++result;
-  }
-  return result;
-}
-
-bool is_greater(const AnyQuery& query, const PointPair& pair) {
-  const std::size_t size = query.shape().numbers_of_point();
-  for (std::size_t j = 0; j <= query.shape().degree; ++j) {
-    for (std::size_t axis = 0; axis < point_axes; ++axis) {
-      const auto at = [&](std::size_t point) {
-        return query.numbers()[(moving_points * j + point) * size + axis];
-      };
-      if (at(pair[0]) != at(pair[1])) return at(pair[0]) > at(pair[1]);
-    }
-  }
-  return false;
-}
-
 }  // namespace
-
-bool Plainness::is_worse_somewhere(const Plainness& other) const {
-  return beyond > other.beyond || degenerate > other.degenerate || drift > other.drift ||
-         length > other.length;
-}
 
 bool is_valid(const AnyQuery& query) {
   const std::size_t size = query.shape().numbers_of_point();
@@ -178,35 +122,36 @@ bool is_valid(const AnyQuery& query) {
   return true;
 }
 
-Plainness plainness(const AnyQuery& query, const AnyQuery& original) {
-  constexpr unsigned bits_for_sum = 8;
-  const std::vector<double> all = magnitudes(query);
-  Plainness result;
-  for (const double x : all) {
-    result.beyond += away(std::ilogb(x), least_everyday, greatest_everyday);
-    result.size += std::bit_cast<std::uint64_t>(x) >> bits_for_sum;
-  }
-  result.degenerate = degeneracy(query);
-  result.drift = drift(query, original);
-  result.length = length(query, all);
-  for (const PointPair& pair : exchangeable(query.kind())) {
-    if (is_greater(query, pair)) ++result.disorder;
+Shape shape_of(const AnyQuery& query) {
+  const AnyQuery same = normalised(query);
+  if (is_collapsed(same)) return Shape::collapsed;
+  return is_coplanar(same) ? Shape::coplanar : Shape::general;
+}
+
+std::string_view to_string(Shape shape) {
+  static constexpr std::array<std::string_view, 3> names{"general", "coplanar", "collapsed"};
+  return names.at(static_cast<std::size_t>(shape));
+}
+
+Plainness plainness(const AnyQuery& query) {
+  const auto numbers = query.numbers();
+  const std::size_t step = to_next_control(query);
+  Plainness result{.shape = shape_of(query)};
+  for (const double x : magnitudes(query)) result.digits += 1 + digits_of(x);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double x = numbers[i];
+    if (x != 0.0) ++result.marks;
+    if (std::signbit(x)) ++result.marks;
+    if (i + step < numbers.size() && x != numbers[i + step]) ++result.marks;
   }
   return result;
 }
-
-std::uint64_t degeneracy(const AnyQuery& query) {
-  const AnyQuery its_shape = shape(query);
-  return collapsed_in_shape(its_shape) + (is_coplanar(its_shape) ? 1 : 0);
-}
-
-std::uint64_t collapsed_elements(const AnyQuery& query) { return collapsed_in_shape(shape(query)); }
 
 int size_exponent(const AnyQuery& query) {
   double greatest = 0.0;
   for_each_coordinate(query, point_axes,
                       [&](double x) { greatest = std::max(greatest, std::abs(x)); });
-  return greatest == 0.0 ? least_everyday : std::ilogb(greatest);
+  return greatest == 0.0 ? 0 : std::ilogb(greatest);
 }
 
 std::vector<double> magnitudes(const AnyQuery& query) {
@@ -219,20 +164,10 @@ std::vector<double> magnitudes(const AnyQuery& query) {
   return result;
 }
 
-std::uint64_t writing_length(double magnitude) {
-  constexpr int of_digit = 3, of_point = 2;
+std::uint64_t digits_of(double magnitude) {
   const generate::Decimal decimal = generate::shortest_decimal(magnitude);
-  const int empty = std::max({decimal.exponent, -decimal.exponent - decimal.count, 0});
-  return static_cast<std::uint64_t>(of_digit * decimal.count + empty +
-                                    (decimal.exponent < 0 ? of_point : 0));
-}
-
-std::span<const PointPair> exchangeable(Kind kind) {
-  static constexpr std::array<PointPair, 3> of_face{{{1, 2}, {1, 3}, {2, 3}}};
-  static constexpr std::array<PointPair, 2> of_edges{{{0, 1}, {2, 3}}};
-  if (is_element(kind)) return {};  // an exchange turns it inside out
-  if (kind == Kind::vertex_face) return of_face;
-  return of_edges;
+  return static_cast<std::uint64_t>(
+      decimal.count + std::max({decimal.exponent, -decimal.exponent - decimal.count, 0}));
 }
 
 }  // namespace touchstone::verify::fuzz

@@ -3,32 +3,20 @@
 /// \file
 /// The plainness of a query: the measure by which queries with the same fault are preferred.
 ///
-/// A finding is more convincing if it looks like a query of practice: numbers between 1e-3 and 1e3
-/// with few decimal digits, few different ones, proper triangles and edges, and the scale at which
-/// the fault was found. The measure is a tuple of natural numbers in lexicographic order; less is
-/// plainer:
+/// A finding is more convincing if it looks like a query that a person wrote: proper triangles and
+/// edges, and few different numbers of few digits. The measure is a tuple of natural numbers in
+/// lexicographic order, the same on every machine; less is plainer:
 ///
-/// 1. `beyond`: the distance of coordinates from everyday size, 2^-10 to 2^10: for each occurring
-///   magnitude, the binary orders of magnitude in between.
-/// 2. `degenerate`: elements that are collapsed, and coplanarity. See degeneracy().
-/// 3. `drift`: the binary orders of magnitude, beyond three, between the greatest coordinate and
-///   the original's, or everyday size if the original's is outside.
-/// 4. `length`: the cost of writing it down. For each magnitude (except 0) 8, 3 for each
-///    significant digit of the shortest decimal of this double, 1 for each zero between these and
-///    the point, and 2 if it is not an integer. For each coordinate 2 unless it is 0, 1 for a sign,
-///    and 1 if it moves on. Weights are numbers as coordinates are, so fewer control points, and
-///    none with weights, are shorter.
-/// 5. `size`: the sum of the magnitudes, each as a number that orders doubles.
-/// 6. `disorder`: pairs of points whose order is irrelevant (the triangle's, an edge's), with the
-///   greater one first.
-///
-/// The measure is the same on every machine.
+/// 1. `shape`: general, coplanar or collapsed, so that a simpler query is no more degenerate.
+/// 2. `digits`: for each different magnitude of coordinates and weights, without 0, one more than
+///    the digits of its shortest decimal, zeros up to the point included.
+/// 3. `marks`: 1 for each coordinate or weight that is not 0, for each sign, and for each number
+///    that is not the same at the next control point. Fewer control points have fewer.
 
-#include <array>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <string_view>
 #include <vector>
 
 #include "touchstone/query.hpp"
@@ -62,47 +50,39 @@ void for_each_coordinate(Numbers& query, std::size_t axis, const Use& use) {
 /// True if all numbers are finite and all weights positive.
 [[nodiscard]] bool is_valid(const AnyQuery& query);
 
-/// The measure above. Two queries may be equally plain.
-struct Plainness {
-  std::uint64_t beyond = 0;
-  std::uint64_t degenerate = 0;
-  std::uint64_t drift = 0;
-  std::uint64_t length = 0;
-  std::uint64_t size = 0;
-  std::uint64_t disorder = 0;
-
-  friend auto operator<=>(const Plainness&, const Plainness&) = default;
-
-  /// True if it is worse in any of the first four numbers, regardless of the others.
-  [[nodiscard]] bool is_worse_somewhere(const Plainness& other) const;
+/// The elements of a query, and the plane of its points.
+enum class Shape : std::uint8_t {
+  general,
+  coplanar,   ///< the four points are always in one plane, to about 2^-20
+  collapsed,  ///< at an end an edge or a triangle's height is shorter than 2^-10 of the query's
+              ///< extent (the greatest difference of two coordinates on an axis), or of its side
 };
 
-/// \param original the query from which it was derived. \pre both are valid
-[[nodiscard]] Plainness plainness(const AnyQuery& query, const AnyQuery& original);
+[[nodiscard]] Shape shape_of(const AnyQuery& query);
 
-/// At each end 1 for an edge that is shorter than 2^-10 of the query's extent, 1 for a triangle
-/// whose height is less than 2^-10 of its longest side, or 2 if all its sides are that short; and 1
-/// if the four points are always in one plane, to about 2^-20. (The extent: the greatest difference
-/// of two coordinates on an axis.) 0 to 5.
-[[nodiscard]] std::uint64_t degeneracy(const AnyQuery& query);
+/// "general", "coplanar" or "collapsed".
+[[nodiscard]] std::string_view to_string(Shape shape);
 
-/// The elements' part of degeneracy(): 0 to 4.
-[[nodiscard]] std::uint64_t collapsed_elements(const AnyQuery& query);
+/// The measure above. Two queries may be equally plain.
+struct Plainness {
+  Shape shape = Shape::general;
+  std::uint64_t digits = 0;
+  std::uint64_t marks = 0;
 
-/// Binary exponents of coordinates of everyday size.
-inline constexpr int least_everyday = -10, greatest_everyday = 9;
+  friend auto operator<=>(const Plainness&, const Plainness&) = default;
+};
 
-/// The binary exponent of the greatest coordinate in magnitude; least_everyday if all are 0.
+/// \pre the query is valid
+[[nodiscard]] Plainness plainness(const AnyQuery& query);
+
+/// The binary exponent of the greatest coordinate in magnitude; 0 if all are 0.
 [[nodiscard]] int size_exponent(const AnyQuery& query);
 
 /// The occurring magnitudes of coordinates and weights without 0, in ascending order.
 [[nodiscard]] std::vector<double> magnitudes(const AnyQuery& query);
 
-/// The length of one magnitude. \pre it is finite and positive
-[[nodiscard]] std::uint64_t writing_length(double magnitude);
-
-/// The pairs of points whose order is irrelevant.
-using PointPair = std::array<std::size_t, 2>;
-[[nodiscard]] std::span<const PointPair> exchangeable(Kind kind);
+/// The digits of the shortest decimal, zeros up to the point included. \pre it is finite and
+/// positive
+[[nodiscard]] std::uint64_t digits_of(double magnitude);
 
 }  // namespace touchstone::verify::fuzz

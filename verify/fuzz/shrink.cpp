@@ -85,12 +85,7 @@ class Shrinker {
  public:
   Shrinker(const AnyQuery& query, const std::function<bool(const AnyQuery&)>& still_fails,
            const ShrinkOptions& options)
-      : still_fails_(still_fails),
-        options_(options),
-        original_(query),
-        of_original_(plainness(query, query)),
-        query_(query),
-        plainness_(of_original_) {
+      : still_fails_(still_fails), options_(options), query_(query), plainness_(plainness(query)) {
     seen_.insert(hash_of(query));
   }
 
@@ -101,14 +96,11 @@ class Shrinker {
       straighten();
       scale();
       translate();
-      follow_points();
       round_all();
-      space_evenly();
       simplify_axes();
       simplify_points();
       simplify_values();
       simplify_coordinates();
-      exchange_points();
     } while (plainness_ < before && !is_over());
     return query_;
   }
@@ -122,10 +114,8 @@ class Shrinker {
   /// Keeps the query if it is plainer and still fails.
   bool attempt(const AnyQuery& plainer) {
     if (over_ || !is_valid(plainer)) return false;
-    const Plainness of_plainer = plainness(plainer, original_);
-    if (of_plainer >= plainness_ || of_plainer.is_worse_somewhere(of_original_) || is_over()) {
-      return false;
-    }
+    const Plainness of_plainer = plainness(plainer);
+    if (of_plainer >= plainness_ || is_over()) return false;
     if (!seen_.insert(hash_of(plainer)).second) return false;
     ++calls_;
     if (!still_fails_(plainer)) return false;
@@ -210,8 +200,7 @@ class Shrinker {
 
   // ---- The whole ----
 
-  /// Scales by powers of two: to the original's size or a similar one, if that is everyday; else to
-  /// any everyday size, those close to 1 first, or part of the way.
+  /// Scales by powers of two: to sizes close to 1, or part of the way.
   void scale() {
     const int size = size_exponent(query_);
     for (const int target : {0, 1, -1, 2, -2, 3, -3, 4, -4, 6, -6, 9, -9}) scale_by(target - size);
@@ -234,8 +223,6 @@ class Shrinker {
     const int shift = size_exponent(query_) - std::ilogb(greatest);
     attempt_axis(axis, [&](double x) { return std::ldexp(x, shift); });
     attempt_axis(axis, [&](double x) { return x / greatest; });
-    attempt_axis(axis, [](double x) { return x / 2.0; });
-    attempt_axis(axis, [](double x) { return x * 2.0; });
   }
 
   /// Translates such that a coordinate of some point becomes 0.
@@ -246,23 +233,6 @@ class Shrinker {
       if (axis >= point_axes || origin == 0.0) continue;
       attempt_axis(axis, [&](double x) { return x - origin; });
       attempt_axis(axis, [&](double x) { return to_digits(x - origin, digits_of_sums); });
-    }
-  }
-
-  /// Changes to the frame of a point: it rests, the others move relative to it.
-  void follow_points() {
-    for (std::size_t point = 0; point < moving_points; ++point) {
-      for (std::size_t axis = 0; axis < point_axes; ++axis) {
-        const std::size_t first = point * point_size() + axis;
-        AnyQuery plainer = query_;
-        for (std::size_t j = 1; j <= shape().degree; ++j) {
-          const double motion = query_.numbers()[j * next() + first] - query_.numbers()[first];
-          for (std::size_t other = 0; other < moving_points; ++other) {
-            plainer.numbers()[j * next() + other * point_size() + axis] -= motion;
-          }
-        }
-        if (plainer != query_) attempt(plainer);
-      }
     }
   }
 
@@ -285,43 +255,6 @@ class Shrinker {
         if (attempt(on_grid) || attempt(shorter)) break;
       }
     }
-  }
-
-  /// Spaces the values of all coordinates, and of those of each axis, evenly in their order: faults
-  /// that depend on order and equality remain.
-  void space_evenly() {
-    for (std::size_t axis = 0; axis <= point_axes; ++axis) {
-      std::vector<double> values;
-      for_each_coordinate(query_, axis, [&](double x) { values.push_back(x); });
-      std::ranges::sort(values);
-      values.erase(std::unique(values.begin(), values.end()), values.end());
-      const double greatest = std::max(std::abs(values.front()), std::abs(values.back()));
-      if (greatest == 0.0) continue;
-      const generate::Decimal decimal = generate::shortest_decimal(greatest);
-      const int top = decimal.exponent + decimal.count;
-      for (const int exponent : {top, top - 1, top - 2, top - 3}) {
-        for (const std::uint64_t step : {1U, 2U, 3U, 5U, 7U}) {
-          space_evenly(axis, values, step, exponent);
-        }
-      }
-    }
-  }
-
-  void space_evenly(std::size_t axis, const std::vector<double>& values, std::uint64_t step,
-                    int exponent) {
-    // Values next to 0 stay there.
-    const auto rank_of = [&](double x) {
-      return std::ranges::lower_bound(values, x) - values.begin();
-    };
-    const std::ptrdiff_t zero = rank_of(0.0);
-    AnyQuery plainer = query_;
-    for_each_coordinate(plainer, axis, [&](double& x) {
-      const std::ptrdiff_t rank = rank_of(x) - zero;
-      const double magnitude =
-          generate::from_decimal(step * static_cast<std::uint64_t>(std::abs(rank)), exponent);
-      x = rank < 0 ? -magnitude : magnitude;
-    });
-    attempt(plainer);
   }
 
   /// The greatest magnitude of an axis, or of all axes for an index beyond the last one.
@@ -403,25 +336,12 @@ class Shrinker {
     attempt(plainer);
   }
 
-  void exchange_points() {
-    for (const PointPair& pair : exchangeable(shape().kind)) {
-      AnyQuery plainer = query_;
-      for (std::size_t j = 0; j <= shape().degree; ++j) {
-        const auto at = [&](std::size_t point) {
-          return plainer.numbers().subspan(j * next() + point * point_size(), point_size());
-        };
-        std::ranges::swap_ranges(at(pair[0]), at(pair[1]));
-      }
-      attempt(plainer);
-    }
-  }
-
   // ---- Values ----
 
   /// Changes all numbers of one magnitude together, longest first.
   void simplify_values() {
     std::vector<double> all = magnitudes(query_);
-    std::ranges::stable_sort(all, std::ranges::greater{}, writing_length);
+    std::ranges::stable_sort(all, std::ranges::greater{}, digits_of);
     for (const double magnitude : all) {
       std::vector<double> candidates = plainer_numbers(magnitude);
       const std::vector<double> others = magnitudes(query_);
@@ -473,8 +393,6 @@ class Shrinker {
 
   const std::function<bool(const AnyQuery&)>& still_fails_;
   const ShrinkOptions& options_;
-  const AnyQuery& original_;
-  Plainness of_original_;
   AnyQuery query_;
   Plainness plainness_;
   /// Hashes of the queries tried. A query with the same hash as an earlier one is skipped.

@@ -8,11 +8,10 @@
 /// step leads to a plainer one that fails. The steps, from large changes to small ones:
 ///
 /// - curves: straight lines between two control points, no weights, the next lower degree;
-/// - the whole: scaled by powers of two (all axes, or one) to everyday size, translated so that a
-///   point's coordinate becomes 0, changed to the frame of a moving point, all coordinates or those
-///   of an axis rounded to fewer decimal digits, or evenly spaced in their order;
-/// - axes: 0, at rest, like another axis; points: in the same place as another, at rest, exchanged
-///   if their order is irrelevant;
+/// - the whole: scaled by powers of two (all axes, or one) to sizes near 1, translated so that a
+///   point's coordinate becomes 0, all coordinates or those of an axis rounded to fewer decimal
+///   digits;
+/// - axes: 0, at rest, like another axis; points: in the same place as another, at rest;
 /// - values: all coordinates of one magnitude together become 0, another occurring magnitude, or a
 ///   decimal of fewer digits; then each coordinate alone, at one end or at both, which may also
 ///   take the other end's value or lose its sign.
@@ -21,8 +20,7 @@
 /// Each result is tested again.
 ///
 /// **Termination.** Each accepted step lowers the plainness, which is a tuple of natural numbers in
-/// lexicographic order. **Never worse than the original**: no accepted step is worse than the
-/// original in one of the first four of these numbers.
+/// lexicographic order.
 
 #include <cstdint>
 #include <functional>
