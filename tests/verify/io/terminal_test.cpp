@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <array>
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -55,22 +54,6 @@ TEST(Terminal, AnIgnoredHangupStaysIgnored) {
     _exit(flag ? 1 : 0);
   };
   EXPECT_EXIT(hang_up(), ::testing::ExitedWithCode(0), "");
-}
-
-TEST(WaitForInput, EndsWithAnInterrupt) {
-  const auto interrupt = [] {
-    static_cast<void>(interrupted());
-    std::array<int, 2> pipe{};
-    if (::pipe(pipe.data()) != 0) _exit(2);
-    std::thread(std::raise, SIGINT).detach();  // before or during the wait, in another thread
-    try {
-      wait_for_input(pipe[0]);
-    } catch (const Interrupted&) {
-      _exit(0);
-    }
-    _exit(1);
-  };
-  EXPECT_EXIT(interrupt(), ::testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tests/support/mesh_files.hpp"
@@ -104,61 +105,39 @@ TEST(ReadObj, ReadsTheGroupsOfVertices) {
 
 TEST(ReadObj, NamesTheLineAndTheReason) {
   const MeshFolder folder;
-  const auto error = [&folder](const std::string& line) {
-    return folder.error("a.obj", four_vertices + line + "\nv 1 1 1\n");
-  };
-  EXPECT_EQ(error("v 1 2"), "a.obj:5: a vertex must have three coordinates");
-  EXPECT_EQ(error("v 1 2 1e999"), "a.obj:5: \"1e999\" is no number, or none that a double holds");
-  EXPECT_EQ(error("v 1 nan 3"), "a.obj:5: a coordinate must be finite");
-  EXPECT_EQ(error("v 1 -inf 3"), "a.obj:5: a coordinate must be finite");
-  EXPECT_EQ(error("v 1 2 3 x"), "a.obj:5: \"x\" is no number, or none that a double holds");
-  EXPECT_EQ(error("v -1.#IND 0 0"),
-            "a.obj:5: \"-1.#IND\" is no number, or none that a double holds");
-  EXPECT_EQ(error("v 0 4 0 0.5"),
-            "a.obj:5: a weight other than 1; only straight edges and flat faces are read");
-  EXPECT_EQ(error("v 0 4 0 1 2"),
-            "a.obj:5: three coordinates and 2 more numbers; only a weight or three of a colour may "
-            "follow");
-  EXPECT_EQ(error("f"), "a.obj:5: corners: 0; a face must have 3 or more");
-  EXPECT_EQ(error("p"), "a.obj:5: corners: 0; a point must have 1 or more");
-  EXPECT_EQ(error("f 1 2 3//4/"), "a.obj:5: \"3//4/\" is no corner");
-  EXPECT_EQ(error("f 1 2 6"), "a.obj:5: corner 6, but there are 5 vertices");
-  EXPECT_EQ(error("f 1 2 2147483647"), "a.obj:5: corner 2147483647, but there are 5 vertices");
-  EXPECT_EQ(error("f 1 2 2147483648"), "a.obj:5: \"2147483648\" is no corner");
-  EXPECT_EQ(error("f 1 2 x/1"), "a.obj:5: \"x/1\" is no corner");
-  EXPECT_EQ(error("f 1 2 /1"), "a.obj:5: \"/1\" is no corner");
-  EXPECT_EQ(error("f 1 2 1.5"), "a.obj:5: \"1.5\" is no corner");
-  EXPECT_EQ(error("f 0 1 2"),
-            "a.obj:5: corner \"0\", but there are 4 vertices before it, counted from 1");
-  EXPECT_EQ(error("f 1 2 -5"),
-            "a.obj:5: corner \"-5\", but there are 4 vertices before it, counted from 1");
-  EXPECT_EQ(error("f 1 2 -2147483648"),
-            "a.obj:5: corner \"-2147483648\", but there are 4 vertices before it, counted from 1");
-  EXPECT_EQ(error("f 1 2 3 9"), "a.obj:5: corner 9, but there are 5 vertices");
-  EXPECT_EQ(error("l 1"), "a.obj:5: corners: 1; a line must have 2 or more");
-  EXPECT_EQ(error("l 1 2 9"), "a.obj:5: corner 9, but there are 5 vertices");
+  const std::string no_number = " is no number, or none that a double holds",
+                    before = ", but there are 4 vertices before it, counted from 1",
+                    there = ", but there are 5 vertices";
+  for (const auto& [line, reason] : std::vector<std::pair<std::string, std::string>>{
+           {"v 1 2", "a vertex must have three coordinates"},
+           {"v 1 2 1e999", "\"1e999\"" + no_number},
+           {"v 1 nan 3", "a coordinate must be finite"},
+           {"v 1 -inf 3", "a coordinate must be finite"},
+           {"v 1 2 3 x", "\"x\"" + no_number},
+           {"v -1.#IND 0 0", "\"-1.#IND\"" + no_number},
+           {"v 0 4 0 0.5", "a weight other than 1; only straight edges and flat faces are read"},
+           {"v 0 4 0 1 2",
+            "three coordinates and 2 more numbers; only a weight or three of a colour may follow"},
+           {"f", "corners: 0; a face must have 3 or more"},
+           {"p", "corners: 0; a point must have 1 or more"},
+           {"f 1 2 3//4/", "\"3//4/\" is no corner"},
+           {"f 1 2 6", "corner 6" + there},
+           {"f 1 2 2147483647", "corner 2147483647" + there},
+           {"f 1 2 2147483648", "\"2147483648\" is no corner"},
+           {"f 1 2 x/1", "\"x/1\" is no corner"},
+           {"f 1 2 /1", "\"/1\" is no corner"},
+           {"f 1 2 1.5", "\"1.5\" is no corner"},
+           {"f 0 1 2", "corner \"0\"" + before},
+           {"f 1 2 -5", "corner \"-5\"" + before},
+           {"f 1 2 -2147483648", "corner \"-2147483648\"" + before},
+           {"f 1 2 3 9", "corner 9" + there},
+           {"l 1", "corners: 1; a line must have 2 or more"},
+           {"l 1 2 9", "corner 9" + there}}) {
+    EXPECT_EQ(folder.error("a.obj", four_vertices + line + "\nv 1 1 1\n"), "a.obj:5: " + reason);
+  }
 }
 
 // ---- Meshes and groups of any file ----------------------------------------------------------------
-
-TEST(MakeMesh, JoinsTheEdgesOfFacesAndThoseNamed) {
-  const std::vector<std::array<double, 3>> places{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}};
-  const std::vector<Edge> named{{3, 0}, {0, 1}, {2, 2}, {0, 3}};
-  const Mesh mesh = make_mesh(places, {{2, 1, 0}}, named);
-  ASSERT_EQ(mesh.vertices.rows(), 4);
-  EXPECT_EQ(mesh.vertices(2, 1), 7);
-  EXPECT_EQ(mesh.vertices(3, 2), 11);
-  EXPECT_EQ(mesh.faces, (std::vector<Face>{{2, 1, 0}}));
-  EXPECT_EQ(mesh.edges, (std::vector<Edge>{{0, 1}, {0, 2}, {1, 2}, {0, 3}}));
-  EXPECT_EQ(mesh.points, (std::vector<std::int32_t>{2})) << "an edge from a vertex to itself";
-}
-
-TEST(MakeMesh, HasEachPointOnce) {
-  const std::vector<std::array<double, 3>> places(4);
-  const std::vector<Point> points{{3}, {0}, {3}};
-  EXPECT_EQ(make_mesh(places, {}, std::vector<Edge>{{1, 1}, {0, 0}}, points).points,
-            (std::vector<std::int32_t>{0, 1, 3}));
-}
 
 TEST(ReadMesh, GoesByTheExtensionInEitherCase) {
   const MeshFolder folder;
@@ -243,14 +222,6 @@ std::string error_of_statements(const std::string& text) {
     while (statements.next()) {
     }
   });
-}
-
-TEST(ObjStatements, AreReturnedOrCounted) {
-  EXPECT_EQ(
-      statements_of(
-          "\xEF\xBB\xBFv 1 2 3 # a point\r\n\n# all\n\tf\t1 2#3 #\nvt 0 0\ng a #1 b\nfo 1\n"
-          "vn 0 0 1\nvt 1 1\nusemtl\n"),
-      (Texts{"1 v| 1 2 3 ", "4 f|\t1 2", "6 g| a #1 b", "7 f| 1", "usemtl 1", "vn 1", "vt 2"}));
 }
 
 TEST(ObjStatements, GoOnBehindABackslash) {

@@ -82,23 +82,6 @@ class WorkingDirectory {
 
 // ---- Promises -----------------------------------------------------------------------------------
 
-TEST(PluginPromise, ChangesReplaceWhatItStates) {
-  const TermsChanges changes{.kinds = {{false, true}},
-                             .starts_apart = 0.0,
-                             .float_coordinates = false,
-                             .times = fast::Times::none,
-                             .time_error = 0.125};
-  for (const char* const name : {"states_terms", "always_no"}) {
-    const fast::Terms terms =
-        load_plugin(tests::plugin_library(name), {.terms = changes})->info().terms;
-    const fast::Terms expected{.kinds = {false, true},
-                               .starts_apart = 0.0,
-                               .times = fast::Times::none,
-                               .time_error = 0.125};
-    EXPECT_EQ(terms, expected) << name;
-  }
-}
-
 TEST(PluginPromise, IncludesCurvesIfItHasAFunctionForThemAndTakesDoubles) {
   const PluginOptions takes_float{.terms = {.float_coordinates = true}};
   for (const auto& [name, options, answers_curves] :
@@ -115,44 +98,6 @@ TEST(PluginPromise, IncludesCurvesIfItHasAFunctionForThemAndTakesDoubles) {
             << name << ' ' << degree << ' ' << is_rational;
       }
     }
-  }
-}
-
-/// Yes from the start where boxes overlap, though the primitives do not always; no where an axis
-/// separates them by the least double; and an error where the query or the distance is none.
-TEST(BoxOverlap, ComparesBoxesToTheLastBit) {
-  const auto method = load_plugin(box_overlap);
-  const double above_zero = std::numeric_limits<double>::denorm_min();
-  const double above_four = std::nextafter(4.0, 5.0), below_one = std::nextafter(1.0, 0.0);
-  struct Row {
-    PosedQuery posed;
-    Verdict verdict;
-    double distance = 0.0;
-  };
-  const PosedQuery through = tests::over_triangle(1, 1, 1, -2);
-  std::vector<Row> rows{{through, Verdict::yes},
-                        {tests::over_edge(1, 1, 1, -2), Verdict::yes},
-                        {tests::over_triangle(1, 1, 1, 0), Verdict::yes},
-                        {tests::over_triangle(3, 3, 1, -2), Verdict::yes},
-                        {tests::over_triangle(1, 1, above_zero, 2), Verdict::no},
-                        {tests::over_triangle(1, 1, -2, -above_zero), Verdict::no},
-                        {tests::over_triangle(above_four, 1, 1, -2), Verdict::no},
-                        {tests::over_triangle(1, above_four, 1, -2), Verdict::no},
-                        {tests::over_edge(1, 1, above_zero, 2), Verdict::no},
-                        {tests::over_edge(above_four, 1, 1, -2), Verdict::no},
-                        {tests::over_triangle(1, 1, 2, 1), Verdict::no, below_one},
-                        {tests::over_triangle(1, 1, 2, 1), Verdict::yes, 1.0},
-                        {tests::over_triangle(1, 1, 2, 1), Verdict::error, -1.0}};
-  for (std::size_t i = 0; i < 24; ++i) {
-    rows.push_back({through, Verdict::error});
-    rows.back().posed.query.coordinates.at(i) = std::nan("");
-  }
-  for (const auto& [posed, verdict, distance] : rows) {
-    const Answer answer =
-        ask(*method, posed, {.separation = {.distance = distance, .norm = Norm::linf}});
-    EXPECT_EQ(answer.verdict, verdict) << posed;
-    EXPECT_TRUE(verdict == Verdict::yes ? answer.toi_lower == 0.0 : std::isnan(answer.toi_lower));
-    EXPECT_TRUE(std::isnan(answer.toi_upper) && std::isnan(answer.tolerance)) << posed;
   }
 }
 

@@ -314,19 +314,6 @@ TEST(SolverProcess, AnEndCostsOneQueryAndOneThatDoesNotRepeatNone) {
   }
 }
 
-/// With a limit, which costs no time, and without; behind the batch of the query that ends its
-/// process, spans are long again.
-TEST(SolverProcess, OneBatchIsSolvedOneByOne) {
-  for (const double limit : {0.0, long_limit}) {
-    const Outcome outcome =
-        run(with(3000, Act::dies_in_spans, {1500}), {.query_limit_seconds = limit});
-    for (const auto& [i, span] :
-         {std::pair(0U, 512.0), {1000U, 512.0}, {1024U, 1.0}, {1535U, 1.0}, {1536U, 512.0}}) {
-      EXPECT_EQ(outcome.answers.at(i).tolerance, span) << i;
-    }
-  }
-}
-
 TEST(SolverProcess, MakesAProcessAgainThatEndsBeforeItsFirstQuery) {
   for (const std::uint64_t lost : {1U, 2U}) {
     expect_failures(run(numbered(20), {}, ScriptedMethod(lost)), {}, {});
