@@ -21,6 +21,7 @@ import tempfile
 
 import large_run
 import results_document
+from results_document import grouped, place_of, rows_of, time_ratio
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -38,11 +39,19 @@ SIMULATIONS = [*SCENES, *(f"{scene} --simulator constraint" for scene in SCENES 
                *(f"torus-on-cone --miss {one_in}" for one_in in ("1000000", "10000", "1000", "100", "10", "1")),
                *(f"torus-on-cone --miss-limit {n}" for n in range(1, 11))]
 
+# The methods of the tables of all methods.
+METHODS = ["certified", "tight_inclusion", "tight_inclusion_published", "tight_inclusion_released", "irf", "uirf", "fprf", "tccd",
+           "rp", "rrp", "bsc", "msrf", "accd"]
+DISTANCES = ["1e-2", "1e-8", "1e-16", "1e-30", "1e-100"]
+
 # The simulations whose queries are the group `own-simulation` of the results: the four scenes of the paper, at least five million
 # queries of each kind.
 RECORDED = "build/own-simulation"
 RECORDINGS = [f"simulate {scene} --record {RECORDED} --record-limit 2500"
               for scene in ("two-heads", "chain-of-rings", "dimpled-ball", "twisting-mat --steps 200")]
+
+# The built-in families as files, of which each is a source of its own.
+FAMILIES = "build/families"
 
 # The adapters as plugins, which solve a query by a call, where the build has them.
 ADAPTERS = "build/adapters"
@@ -52,12 +61,20 @@ BY_THE_CALL = {"c_function": "C, by the call", "tight_inclusion_adapter": "Tight
 JUDGED = ["certified", "tight_inclusion", "tight_inclusion_published", "tight_inclusion_released", "tight_inclusion_float",
           "accd", "accd_limited", "cubic"]
 
+def asked(methods):
+    return " ".join(f"--method {name}" for name in methods)
+
+
 # The commands of each file of data. They run in the folder of the public data.
 COMMANDS = {
-    "results": ["report handcrafted simulation --count 1000000 --method-seconds 12 --experiment field "
-                "--experiment separation --experiment filter --stability 0",
-                f"report {RECORDED} --count 12000000 --method-seconds 12 --experiment field --stability 0"],
-    "certify": [*(f"certify {data} {' '.join(f'--method {name}' for name in JUDGED)}".replace("  ", " ") for data in DATA),
+    "results": [f"bench {data} {asked(METHODS)} --seconds 12 --judge 12000000" for data in ("handcrafted simulation", RECORDED)],
+    "separations": [f"bench handcrafted simulation {asked(methods)} --norm {norm} "
+                    f"{' '.join(f'--min-separation {d}' for d in DISTANCES)} --seconds 12"
+                    for norm, methods in (("linf", ["tight_inclusion", "certified"]), ("l2", ["msrf", "fprf", "certified"]))],
+    "filters": [f"bench {queries} {asked(METHODS[1:4])} --max-checks 100000 --repetitions 1 --seconds 100"
+                for queries in (f"{FAMILIES}/vertex-face/*.csv {FAMILIES}/edge-edge/*.csv",
+                                "--level 1:7 --family end-contact --family decimal-end-contact --count 10000")],
+    "certify": [*(f"certify {data} {asked(JUDGED)}".replace("  ", " ") for data in DATA),
                 "certify"],
     "files": ["bench handcrafted/*/*/*.csv simulation/*/queries/*.csv --method certified --method tccd "
               "--method rp --repetitions 15"],
@@ -160,6 +177,16 @@ def record(options):
         done.write_text(json.dumps(json.loads(printed_) | {"command": words}))
 
 
+def bench(command, words, options, folder):
+    """Runs a command of bench. The rows name their sources as the command does."""
+    out = folder / "rows.jsonl"
+    run([options.tool, *words, "--json", out], (0, 1), cwd=options.data)  # 1 if a method is wrong
+    text = out.read_text()
+    for place, named in ((options.recorded, "own-simulation"), (options.families, "families")):
+        text = text.replace(str(place), named)
+    return {"command": f"touchstone {command}", "rows": [reduced(json.loads(line)) for line in text.splitlines()]}
+
+
 def measure_one(name, command, options, folder):
     """Runs a command of the tool; returns the command with its result."""
     if name == "simulations":
@@ -168,13 +195,19 @@ def measure_one(name, command, options, folder):
         return prove_step(command, options, folder)
     if RECORDED in command:
         record(options)
+    if FAMILIES in command:
+        run([options.tool, "generate", "--count", "500", "--out", options.families])
     if options.quick:
-        command = re.sub(r"--repetitions \d+", "--repetitions 1", re.sub(r"--(method-)?seconds \d+", r"--\1seconds 0.1", command))
+        command = re.sub(r"--repetitions \d+", "--repetitions 1", re.sub(r"--seconds 12\b", "--seconds 0.1", command))
     print(f"touchstone {command}", flush=True)
     out, proofs = folder / "run.json", folder / "proofs.cert.zst"
-    command_here = command.replace(RECORDED, str(options.recorded)).replace(ADAPTERS, str(options.tool.with_name("adapters")))
+    command_here = command
+    for named, place in ((RECORDED, options.recorded), (FAMILIES, options.families), (ADAPTERS, options.tool.with_name("adapters"))):
+        command_here = command_here.replace(named, str(place))
     words = [path for word in command_here.split()
              for path in (sorted(glob.glob(word, root_dir=options.data)) if "*" in word else [word])]
+    if command.startswith("bench"):
+        return bench(command, words, options, folder)
     words += ["--json", out] + (["--prove", proofs] if name == "certificates" else [])
     words += ["--table"] if command == "certify" else []
     # The exit status of certify is 1 if a method is wrong.
@@ -188,20 +221,16 @@ def measure_one(name, command, options, folder):
 
 
 def measure(name, options, folder):
-    """Writes docs/data/NAME.json anew, with a line for each run or each measurement."""
+    """Writes docs/data/NAME.json anew, with a line for each run."""
     rows = ([reduced(row) for row in large_run.measure(options, run)] if name == "large"
             else [measure_one(name, command, options, folder) for command in COMMANDS[name]])
-    key, data = "runs", {"date": datetime.datetime.now(datetime.timezone.utc).date().isoformat()}
-    if name == "results":  # as `touchstone report --from` reads it
-        key, data = "measurements", rows[0]["result"] | {
-            "command": " && ".join(row["command"] for row in rows),
-            "groups": [group for row in rows for group in row["result"]["groups"]]}
-        rows = [row if row["experiment"] == "field" else row | {"collision_times": [], "no_collision_times": []}  # drawn of the field
-                for of in rows for row in of["result"][key]]
-        del data[key]
+    data = {"date": datetime.datetime.now(datetime.timezone.utc).date().isoformat()}
+    if name == "results":
+        processor = re.search("model name\\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
+        data |= {"machine": processor[1] if processor else "unknown processor",
+                 "version": run([options.tool, "--version"]).strip()}
     lines = ",\n".join(compact(row) for row in rows)
-    text = f'{compact(data)[:-1]},"{key}":[\n{lines}\n]}}\n'
-    (options.root / f"docs/data/{name}.json").write_text(text)
+    (options.root / f"docs/data/{name}.json").write_text(f'{compact(data)[:-1]},"runs":[\n{lines}\n]}}\n')
 
 
 # ---- The marked parts ------------------------------------------------------------------------------------------------
@@ -235,12 +264,12 @@ OURS = ["certified", "tight_inclusion"]
 
 def summary(results_, certify, steps_):
     """The first sentences of README.md, a number each."""
-    of_others = [m for m in results_["measurements"] if m["experiment"] == "field" and m["method"] not in OURS]
-    others = {m["method"] for m in of_others}
-    missing = {m["method"] for m in of_others if m["false_negatives"] and not m["group"].startswith("own-simulation")}
+    of_others = [row for row in rows_of(results_) if row["method"] not in OURS]
+    others = {row["method"] for row in of_others}
+    missing = {row["method"] for row in of_others if row["false_negatives"] and row["source"] != "own-simulation"}
     truth = certify["runs"][-1]["result"]
     exact = by_name(truth)["certified"]
-    step = steps_["runs"][0]["result"]["step"]
+    step = step_of(steps_["runs"][0])
     of = step["times"][0]  # one thread
     return [f"Rounding makes the usual answers wrong: of {len(others)} published methods and variants, as implemented here, "
             f"{len(missing)} miss collisions of the",
@@ -260,16 +289,14 @@ def compared(certify):
 
 
 def results(data):
-    field = [m for m in data["measurements"] if m["experiment"] == "field"]
-    places = dict.fromkeys((m["group"], m["kind"]) for m in field)
-    cells = {}
-    for m in field:
-        time = rounded(m["ns_per_query"] / m["certified_ns_per_query"]) + "*" * (m["asked"] < m["group_queries"])
-        cells.setdefault(m["method"], {})[m["group"], m["kind"]] = (
-            f"{m['false_negatives']} / {m['false_positives']} / {time}")
-    return made_by(data, data["command"]) + table(
-        ["method", *map(", ".join, places)],
-        [[f"`{method}`", *(of.get(place, "–") for place in places)] for method, of in cells.items()])
+    places, cells = {}, {}
+    for row in rows_of(data):
+        place = places.setdefault((row["source"], row["kind"]), place_of(row))
+        time = rounded(time_ratio(row)) + "*" * (row["timed"] < row["queries"])
+        cells.setdefault(row["method"], {})[place] = f"{row['false_negatives']} / {row['false_positives']} / {time}"
+    return made_by(data, " && ".join(one["command"] for one in data["runs"])) + table(
+        ["method", *places.values()],
+        [[f"`{method}`", *(of.get(place, "–") for place in places.values())] for method, of in cells.items()])
 
 
 def printed(data):
@@ -296,13 +323,13 @@ def judged(data):
 
 def files(data):
     scenes = {}
-    for group in data["runs"][0]["result"]["groups"]:
-        scenes.setdefault(group["name"].split("/")[1], {})[group["kind"]] = by_name(group)
+    for row in rows_of(data):
+        scenes.setdefault(row["source"].split("/")[1], {}).setdefault(row["kind"], {})[row["method"]] = row
 
     def cells(of):
         if not of:
             return [""] * 3
-        tccd, rp = (rounded(of[method]["passes"] / of["certified"]["passes"]) for method in ("tccd", "rp"))
+        tccd, rp = (rounded(of[method]["ns_per_query"] / of["certified"]["ns_per_query"]) for method in ("tccd", "rp"))
         return [tccd, of["tccd"]["false_positives"], rp]
 
     return made_by(data) + table(
@@ -311,82 +338,90 @@ def files(data):
         [[scene, *cells(kinds.get("vertex-face")), *cells(kinds.get("edge-edge"))] for scene, kinds in scenes.items()])
 
 
+def passes(row):
+    return rounded(row["ns_per_query"] / row["pass_ns_per_query"])
+
+
 def patches(data):
     rows = []
-    for group in data["runs"][0]["result"]["groups"]:
-        what = f"{group['name']}, {group['kind']}, {group['queries']:,}"
-        for m in group["methods"]:
-            sample = "" if m["queries"] == group["queries"] else f", {m['queries']:,} of them"
-            rows.append([what, f"`{m['name']}`{sample}", rounded(m["passes"]), m["false_negatives"],
-                         m["false_positives"], f"{m['toi_error']['p50']:.1e} / {m['toi_error']['max']:.1e}"])
+    for place, of in grouped(rows_of(data), place_of).items():
+        what = f"{place}, {of[0]['queries']:,}"
+        for row in of:
+            sample = "" if row["timed"] == row["queries"] else f", {row['timed']:,} of them"
+            rows.append([what, f"`{row['method']}`{sample}", passes(row), row["false_negatives"], row["false_positives"],
+                         f"{row['toi_error']['p50']:.1e} / {row['toi_error']['max']:.1e}"])
             what = ""
     return made_by(data) + table(["queries", "method", "passes", "false negatives", "false positives",
                                   "error of the time of impact, median / greatest"], rows)
 
 
-def scene_of(run):
-    """The step of a run of bench --step, and its separation."""
-    separation = re.search(r"--min-separation (\S+) --norm (\S+)", run["command"])
+def step_of(run_):
+    """The row of the whole step in a run of bench --step."""
+    return next(row for row in run_["rows"] if "step" in row)
+
+
+def scene_of(run_):
+    """The step of a run of a command about one, and its separation."""
+    separation = re.search(r"--min-separation (\S+) --norm (\S+)", run_["command"])
     d = f"{separation[1]} {'L2' if separation[2] == 'l2' else 'L∞'}" if separation else 0
-    return re.search(r"simulation/([^/]*)", run["command"])[1], d
+    return re.search(r"simulation/([^/]*)", run_["command"])[1], d
+
+
+def by_kind(run_):
+    """The rows of each kind of a run of bench --step, by their method."""
+    kinds = grouped((row for row in run_["rows"] if "method" in row), lambda row: row["kind"])
+    return {kind: {row["method"]: row for row in of} for kind, of in kinds.items()}
 
 
 def steps(data):
     rows = []
     for one in data["runs"]:
         step, d = scene_of(one)
-        for group in one["result"]["groups"]:
-            counts, methods = one["result"]["step"][group["kind"].replace("-", "_")], by_name(group)
-            ended = (f"{100 * methods['certified']['stages'][stage] / group['queries']:.1f}"
+        for kind, methods in by_kind(one).items():
+            counts, certified = step_of(one)[kind.replace("-", "_")], methods["certified"]
+            ended = (f"{100 * certified['stages'][stage] / certified['queries']:.1f}"
                      for stage in ("axis", "direction", "determinant", "bisection"))
-            rows.append([f"{step}, {group['kind']}", d, f"{counts['candidates']:,}", f"{counts['collisions']:,}",
-                         *(rounded(methods[name]["passes"])
-                           for name in ("certified", "certified_queries", "certified_pairs", "tight_inclusion")),
-                         " / ".join(ended) + " %"])
+            rows.append([f"{step}, {kind}", d, f"{counts['candidates']:,}", f"{counts['collisions']:,}",
+                         *(passes(methods[name]) for name in ("certified", "tight_inclusion")), " / ".join(ended) + " %"])
     return made_by(data, "touchstone bench --step FRAME0 FRAME1 …") + table(
-        ["step", "d", "candidates", "collisions", "`certified`", "`certified_queries`", "`certified_pairs`",
-         "`tight_inclusion`", "ended by axis / direction / determinant / bisection"], rows)
+        ["step", "d", "candidates", "collisions", "`certified`", "`tight_inclusion`",
+         "ended by axis / direction / determinant / bisection"], rows)
 
 
 def whole_steps(data):
     rows = []
     for one in data["runs"]:
-        step = one["result"]["step"]
+        step = step_of(one)
         of = step["times"][0]  # one thread
 
-        def passes(*parts):
+        def in_passes(*parts):
             return rounded(sum(of[f"{part}_processor_s"] for part in parts) / step["memory_pass_s"])
 
         rows.append([*scene_of(one), f"{step['vertices']:,} / {step['edges']:,} / {step['faces']:,}",
-                     f"{1e3 * step['memory_pass_s']:.2f} ms", passes("trees"), passes("candidates"),
-                     passes("trees", "earliest"), passes("trees", "collisions")])
+                     f"{1e3 * step['memory_pass_s']:.2f} ms", in_passes("trees"), in_passes("candidates"),
+                     in_passes("trees", "earliest"), in_passes("trees", "collisions")])
     return made_by(data, "touchstone bench --step FRAME0 FRAME1 …") + table(
         ["step", "d", "vertices / edges / faces", "pass", "trees", "candidates", "earliest impact, trees included",
          "all collisions, trees included"], rows)
 
 
 def one_at_a_time(data):
-    # Data from before the adapters were plugins do not have them.
-    adapters = [name for name in BY_THE_CALL if name in by_name(data["runs"][0]["result"]["groups"][0])]
     rows = []
     for one in data["runs"]:
-        for group in one["result"]["groups"]:
-            methods = by_name(group)
+        for kind, methods in by_kind(one).items():
             of = methods["certified"]
-            batch, single = of["time"]["ns_per_query"], of["single"]
-            rows.append([f"{scene_of(one)[0]}, {group['kind']}", rounded(batch),
-                         *(rounded(single[f"{part}_ns"]) for part in ("mean", "p50", "p99")),
-                         f"{single['mean_ns'] / batch:.1f}",
-                         *(rounded(methods[name]["time"]["ns_per_query"]) for name in adapters)])
+            batch, single = of["ns_per_query"], of["single"]
+            rows.append([f"{scene_of(one)[0]}, {kind}", rounded(batch),
+                         *(rounded(single[f"{part}_ns"]) for part in ("mean", "p50", "p99")), f"{single['mean_ns'] / batch:.1f}",
+                         *(rounded(methods[name]["ns_per_query"]) for name in BY_THE_CALL)])
     return made_by(data, "touchstone bench --step FRAME0 FRAME1 …") + table(
-        ["step", "in a batch", "alone: mean", "median", "99 %", "mean, in that of a batch",
-         *(BY_THE_CALL[name] for name in adapters)], rows)
+        ["step", "in a batch", "alone: mean", "median", "99 %", "mean, in that of a batch", *BY_THE_CALL.values()], rows)
 
 
 def line_searches(data):
     rows = []
     for one in data["runs"]:
-        of = one["result"]["step"]["times"][0]  # one thread
+        of = step_of(one)["times"][0]  # one thread
         times = [of[f"{part}_processor_s"] for part in ("earliest", "free_step_size", "limit_of_scene", "limit_of_pairs")]
         rows.append([scene_of(one)[0], f"{1e3 * times[0]:.1f} ms",
                      *(f"{1e3 * time:.1f} ms ({time / times[0]:.1f})" for time in times[1:])])
@@ -582,16 +617,14 @@ def with_parts(document, text, root):
 def documents(options, folder):
     """The correct texts of all documents, by name."""
     made = {document: with_parts(document, (options.root / document).read_text(), options.root) for document in PARTS}
-    page = folder / "page.html"
-    run([options.tool, "report", "--from", options.root / "docs/data/results.json", "--out", page])
-    said = results_document.read_page(page, folder, run)
 
     def read(name):
         return json.loads((options.root / f"docs/data/{name}.json").read_text())
 
     sections = [line for part in (large, field_2026) for line in part(read(part.__name__))]
-    text = results_document.document(read("results"), read("published"), said)
-    return made | {"docs/results.md": "\n".join([text, *sections]), "docs/results.svg": said["picture"]}
+    text = results_document.document(*map(read, ("results", "separations", "filters", "published")))
+    return made | {"docs/results.md": "\n".join([text, *sections]),
+                   "docs/results.svg": results_document.picture(options.tool, rows_of(read("results")), folder, run)}
 
 
 def differences(root, made):
@@ -616,7 +649,7 @@ def main():
     parser.add_argument("--root", type=pathlib.Path, default=PROJECT, help="the folder of the documents")
     options = parser.parse_args()
     options.tool = options.tool.resolve()  # commands run in another folder
-    options.recorded = options.tool.parent.parent / pathlib.Path(RECORDED).name
+    options.recorded, options.families = (options.tool.parent.parent / pathlib.Path(name).name for name in (RECORDED, FAMILIES))
     if not set(options.names) <= set(COMMANDS):
         parser.error(f"NAME is one of {' '.join(COMMANDS)}")
     with tempfile.TemporaryDirectory() as name:

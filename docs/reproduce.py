@@ -15,15 +15,17 @@ import time
 
 import documents
 
-COUNTS = ["false_negatives", "false_positives", "undecided", "errors", "late_tois", "early_upper_tois", "late_toi", "early_toi_upper"]
+COUNTS = ["false_negatives", "false_positives", "undecided", "errors", "late_toi", "early_toi_upper"]
+# What the counts of a row are about. A method that is asked a sample is asked as many as time allows.
+KEYS = ["source", "kind", "level", "method", "timed", "judged", "min_separation", "norm", "tolerance", "max_checks"]
 
 
-def rows_of(name, root):
+def counts_of(name, root):
     """The counts of a file of data, by what they are about."""
     data = json.loads((root / f"docs/data/{name}.json").read_text())
-    if name == "results":  # a method that is asked a sample is asked as many as time allows
-        return {(m["experiment"], m["group"], m["kind"], m["method"], m["asked"], json.dumps(m["separation"]), str(m["scale"]),
-                 str(m.get("tolerance")), str(m["max_checks"])): [m.get(count) for count in COUNTS] for m in data["measurements"]}
+    if name != "certify":
+        return {tuple(str(row[key]) for key in KEYS): [row[count] for count in COUNTS]
+                for row in documents.rows_of(data)}
     return {(run["command"], method["name"]): [method.get(count) for count in COUNTS]
             for run in data["runs"] for method in run["result"]["methods"]}
 
@@ -37,20 +39,20 @@ def main():
     parser.add_argument("--quick", action="store_true", help="measure times briefly; counts are the same")
     options = parser.parse_args()
     options.tool, options.root, begin = here / "build/release/touchstone", options.out, time.monotonic()
-    options.recorded = here / "build/own-simulation"
+    options.recorded, options.families = here / "build/own-simulation", here / "build/families"
     if not options.built_in and not (options.data / "handcrafted").is_dir():
         raise documents.Problem(f"{options.data}: no public data; name its folder (TOUCHSTONE_DATA), or use --built-in")
     shutil.rmtree(options.out, ignore_errors=True)
     shutil.copytree(here / "docs", options.out / "docs")
     shutil.copy(here / "README.md", options.out)
-    names = ["certify"] if options.built_in else ["certify", "results"]
+    names = ["certify"] if options.built_in else ["certify", "results", "separations", "filters"]
     if options.built_in:
         documents.COMMANDS["certify"] = ["certify"]
     different = 0
     with tempfile.TemporaryDirectory() as folder:
         for name in names:
             documents.measure(name, options, pathlib.Path(folder))
-            old, new = rows_of(name, here), rows_of(name, options.out)
+            old, new = counts_of(name, here), counts_of(name, options.out)
             both = old.keys() & new.keys()
             for key in sorted(both, key=str):
                 if old[key] != new[key]:
@@ -61,7 +63,7 @@ def main():
         if not options.built_in:
             for document, text in documents.documents(options, pathlib.Path(folder)).items():
                 (options.out / document).write_text(text)
-    disk = sum(file.stat().st_size for place in (options.out, options.recorded) for file in place.rglob("*") if file.is_file())
+    disk = sum(file.stat().st_size for place in (options.out, options.recorded, options.families) for file in place.rglob("*") if file.is_file())
     print(f"{different} counts differ; {time.monotonic() - begin:.0f} s, {disk / 1e6:.1f} MB in {options.out}"
           f"{'' if options.built_in else f' and {options.recorded}'}")
     return 1 if different else 0

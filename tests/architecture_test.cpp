@@ -81,7 +81,7 @@ constexpr std::string_view layer_lines = R"(
   verify/io/: verify/io/ REST
   verify/data/: verify/data/ verify/base/ verify/io/ REST
   verify/mesh/: verify/mesh/ verify/data/ verify/io/ REST
-  verify/generate/: verify/generate/ verify/base/ verify/data/ verify/io/ verify/mesh/ REST
+  verify/generate/: verify/generate/ verify/data/ verify/io/ verify/mesh/ REST
   verify/baselines/: verify/baselines/ fast/ filters/ exact/curved_query.hpp exact/element.hpp exact/query.hpp Eigen/
 // Plugins: they use packages that simulators do not need, and the rounding mode.
   verify/published/: verify/published/ verify/baselines/ verify/generate/random_stream.hpp verify/plugin.h fast/ gmpxx.h exact/query.hpp Eigen/ xmmintrin.h
@@ -91,7 +91,7 @@ constexpr std::string_view layer_lines = R"(
   verify/solvers/child_process.cpp: verify/solvers/ verify/io/ fcntl.h linux/ poll.h sched.h sys/ unistd.h
   verify/jobs/: verify/jobs/ verify/base/ verify/data/ verify/io/ verify/judge/ verify/mesh/ verify/solvers/ REST
   verify/fuzz/: verify/fuzz/ verify/base/ verify/data/ verify/generate/ verify/io/ verify/judge/ verify/solvers/ REST
-  verify/report/: verify/report/ verify/base/ verify/data/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/solvers/ REST
+  verify/report/: verify/report/ verify/data/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/solvers/ REST
   verify/view/: verify/view/ verify/base/ verify/data/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ verify/solvers/ REST
   verify/playground/: verify/base/ verify/judge/ verify/solvers/ verify/view/ fast/ nlohmann/ emscripten/emscripten.h
   verify/cli/: verify/cli/ verify/data/ verify/fuzz/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ verify/solvers/ verify/view/ REST
@@ -147,7 +147,7 @@ constexpr std::string_view headers_without_test = R"(
   verify/solvers/: child_process.hpp
 // tests/transcripts.
   verify/cli/: files.hpp options.hpp result_files.hpp sharded_run.hpp solver_options.hpp sources.hpp
-  verify/report/: judgement_report.hpp step_report.hpp
+  verify/report/: bench_report.hpp certify_report.hpp judgement_report.hpp step_report.hpp
 )";
 
 /// A line of a table.

@@ -35,7 +35,7 @@
 #include "touchstone/oracle.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
-#include "verify/generate/workload.hpp"
+#include "verify/generate/levels.hpp"
 #include "verify/judge/terms.hpp"
 
 namespace touchstone::fast::tight_inclusion_test {
@@ -539,9 +539,11 @@ TEST(Published, TheReleaseDeniesAVertexThatLandsOnATriangle) {
 }
 
 /// The number of denied contacts.
-std::size_t denied_at(double scale, bool two_decimals, Kind kind, ErrorModel model) {
-  const verify::data::QueryGroup contacts = verify::generate::end_contacts(
-      kind, {.scale = scale, .two_decimals = two_decimals, .count = 500});
+std::size_t denied_at(int level, bool two_decimals, Kind kind, ErrorModel model) {
+  const auto& family =
+      verify::generate::level_family(two_decimals ? "decimal-end-contact" : "end-contact");
+  const verify::data::QueryGroup contacts =
+      verify::generate::level_group(family, kind, level, 2021, 500);
   return static_cast<std::size_t>(std::ranges::count_if(
       contacts.queries().straight(),
       [&](const Query& query) { return solve_with(model, kind, query).verdict == Verdict::no; }));
@@ -551,15 +553,15 @@ std::size_t denied_at(double scale, bool two_decimals, Kind kind, ErrorModel mod
 TEST(Published, TheReleaseDeniesSomeContactsAtScalesFarFromOne) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (const bool two_decimals : {false, true}) {
-      for (const double scale : {0.001, 0.01, 0.1, 100.0, 1000.0}) {
-        const std::size_t denied = denied_at(scale, two_decimals, kind, ErrorModel::released);
-        EXPECT_GE(denied, 10U) << scale;
-        EXPECT_LE(denied, 100U) << scale;
-        EXPECT_EQ(denied_at(scale, two_decimals, kind, ErrorModel::published), 0U) << scale;
-        EXPECT_EQ(denied_at(scale, two_decimals, kind, ErrorModel::derived), 0U) << scale;
+      for (const int level : {1, 2, 3, 6, 7}) {
+        const std::size_t denied = denied_at(level, two_decimals, kind, ErrorModel::released);
+        EXPECT_GE(denied, 10U) << level;
+        EXPECT_LE(denied, 100U) << level;
+        EXPECT_EQ(denied_at(level, two_decimals, kind, ErrorModel::published), 0U) << level;
+        EXPECT_EQ(denied_at(level, two_decimals, kind, ErrorModel::derived), 0U) << level;
       }
-      for (const double scale : {1.0, 10.0}) {
-        EXPECT_EQ(denied_at(scale, two_decimals, kind, ErrorModel::released), 0U) << scale;
+      for (const int level : {4, 5}) {
+        EXPECT_EQ(denied_at(level, two_decimals, kind, ErrorModel::released), 0U) << level;
       }
     }
   }

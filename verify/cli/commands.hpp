@@ -26,8 +26,6 @@ namespace prove_command { void add(CLI::App& app, Status& status); }
 namespace generate_command { void add(CLI::App& app, Status& status); }
 namespace bench_command { void add(CLI::App& app, Status& status); }
 namespace fuzz_command { void add(CLI::App& app, Status& status); }
-namespace stability_command { void add(CLI::App& app, Status& status); }
-namespace report_command { void add(CLI::App& app, Status& status); }
 namespace intersections_command { void add(CLI::App& app, Status& status); }
 namespace step_command { void add(CLI::App& app, Status& status); }
 namespace view_command { void add(CLI::App& app, Status& status); }
@@ -40,8 +38,7 @@ inline void add_commands(CLI::App& app, Status& status) {
   for (const auto add :
        {certify_command::add, solve_command::add, prove_command::add, generate_command::add,
         step_command::add, intersections_command::add, bench_command::add, fuzz_command::add,
-        merge_command::add, stability_command::add, report_command::add, view_command::add,
-        derive_command::add}) {
+        merge_command::add, view_command::add, derive_command::add}) {
     add(app, status);
   }
 }

@@ -80,6 +80,13 @@ void Output::write(std::string_view text) {
   attempt([&] { file_->write(text); });
 }
 
+void Output::write_through(std::string_view text) {
+  attempt([&] {
+    file_->write(text);
+    file_->flush();
+  });
+}
+
 void Output::close() {
   attempt([&] { file_->close(); });
 }

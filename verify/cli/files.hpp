@@ -69,6 +69,9 @@ class Output {
 
   /// Does nothing if no file was named or it has failed.
   void write(std::string_view text);
+  /// Writes a part that is complete by itself, which stays in the incomplete file
+  /// (verify/io/output_file.hpp) if this process is killed.
+  void write_through(std::string_view text);
   /// Completes the file.
   void close();
   /// Writes the text, and completes the file.

@@ -13,7 +13,6 @@
 
 #include "verify/cli/solver_options.hpp"
 #include "verify/data/ground_truth_files.hpp"
-#include "verify/generate/hardness.hpp"
 #include "verify/io/number_text.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/report/step_report.hpp"
@@ -26,14 +25,6 @@ std::vector<std::string> fault_names() {
   std::vector<std::string> names;
   names.reserve(judge::all_faults.size());
   for (const judge::Fault fault : judge::all_faults) names.emplace_back(judge::to_string(fault));
-  return names;
-}
-
-std::vector<std::string> hardness_names() {
-  std::vector<std::string> names;
-  const auto all = generate::all_hardnesses();
-  names.reserve(all.size());
-  for (const auto& hardness : all) names.emplace_back(hardness.name);
   return names;
 }
 
@@ -51,25 +42,24 @@ std::vector<OptionRow> make_table() {
       {"--kind", "KIND", kinds, "Only these queries; otherwise vertex-face and edge-edge", "generate"},
       {"--kind", "KIND", contact, "vertex-face or edge-edge, if the input does not tell", "view"},
       {"--kind", "KIND", contact, "vertex-face or edge-edge, if the path does not tell", "bench"},
-      {"--kind", "KIND", contact, "vertex-face or edge-edge, if the path does not tell", "report"},
       {"--kind", "KIND", kinds, "vertex-face, edge-edge, or an element, if the path does not tell", "prove"},
       {"--kind", "KIND", kinds, "vertex-face, edge-edge, or an element, if the path does not tell; also: only these of the built-in set"},
       {"--round", "", {}, "Round coordinates of datasets that are not doubles", "view"},
       {"--round", "", {}, "Round coordinates that are not doubles, and count them"},
       {"--keep-going", "", {}, "Skip and count invalid queries and files (exit status 2)"},
       {"--threads", "N", Whole{0, INT_MAX}, "Cores to use (0: all)"},
-      {"--seed", "N", Whole{}, "Seed of the queries", "stability"},
       {"--seed", "N", Whole{}, "Seed of all queries", "fuzz"},
       {"--seed", "N", Whole{}, "Seed of the search for the worst error", "derive"},
       {"--seed", "N", Whole{}, "Seed of the built-in set"},
-      {"--count", "N", Whole{1}, "Queries of each hardness, level and kind", "stability"},
-      {"--count", "N", Whole{1, UINT32_MAX}, "Maximum queries per group (a quarter of it in the separation experiment)", "report"},
+      {"--count", "N", Whole{1}, "Queries of each family and kind, and level", "bench"},
       {"--count", "N", Whole{1}, "Queries of each family and kind of the built-in set"},
       {"--degree", "D", OneOf{{"1", "2", "3", "4", "5", "6", "7", "8", "rational"}}, "Degree of the Bézier curves that points move on, 1 (straight lines, the default) to 8, or rational (of degrees 1 and 2); repeatable", "fuzz"},
       {"--degree", "D", OneOf{{"1", "2", "3", "rational"}}, "Built-in queries on curves of this degree, 1 (straight lines), 2 or 3, or rational ones; repeatable"},
+      {"--level", "L:M", {}, "Families of growing difficulty, from level L (1) to M (12)"},
+      {"--min-separation", "D", Distance{}, "Contact: distance ≤ D (default: separation.json, or 0); repeatable", "bench"},
       {"--min-separation", "D", Distance{}, "Contact: distance ≤ D, 0.5 or 0x1p-1 (default: separation.json, or 0)"},
       {"--norm", "NORM", OneOf{{"linf", "l2"}}, "Norm of the distance: l2 (default) or linf (greatest component)"},
-      {"--hardness", "NAME", {}, fmt::format("Only these; repeatable: {}", fmt::join(hardness_names(), ", "))},
+      {"--family", "NAME", {}, "Only these families of growing difficulty; repeatable", "bench"},
       {"--family", "NAME", {}, "Only these families (see --list)", "generate", list},
       {"--patches", "N", Whole{1, 20'000}, "Write two patches of mesh instead of queries, before and after a step, with N cells per side: 4 N² faces"},
       {"--index", "N", Whole{}, "Only the query at this position of a file, from 0; repeatable"},
@@ -93,7 +83,6 @@ std::vector<OptionRow> make_table() {
       {"parts", "FILE.json", {}, "The JSON of all parts of a run (--shard I/N --json FILE.json)", "merge", required},
 
       // Solvers.
-      {"--method", "NAME", {}, fmt::format("Only these; repeatable: {}", fmt::join(solvers::all_names(), ", ")), "report"},
       {"--method", "NAME", {}, fmt::format("Built-in or published solver; repeatable: {}", fmt::join(solvers::all_names(), ", "))},
       {"--plugin", "LIB.so", {}, "Your solver: a shared library (touchstone/plugin.h); repeatable"},
       {"--answers-kinds", "KIND", kinds, "The plugin answers only these queries; repeatable"},
@@ -101,7 +90,9 @@ std::vector<OptionRow> make_table() {
       {"--starts-apart{0}", "", Real{0.0, DBL_MAX}, "The plugin needs primitives that are apart at t=0; with =D, by more than the minimum separation plus D"},
       {"--times", "WHAT", OneOf{{"bounds", "estimates", "none"}}, "The plugin's times of impact: bounds, estimates or none"},
       {"--time-error", "E", Real{0.0, 1.0}, "Allowed error of estimated times, in units of the step (default 1e-6)"},
+      {"--tolerance", "X", Real{DBL_TRUE_MIN, DBL_MAX}, "Tolerance of conservative methods (default 1e-06); repeatable", "bench"},
       {"--tolerance", "X", Real{DBL_TRUE_MIN, DBL_MAX}, "Tolerance of conservative methods, in units of the coordinates"},
+      {"--max-checks", "N", Whole{0, INT64_MAX}, "Maximum steps per query (0: no limit); repeatable", "bench"},
       {"--max-checks", "N", Whole{0, INT64_MAX}, fmt::format("Maximum steps per query (0: no limit; built-in set: {})", built_in_max_checks)},
       {"--query-limit", "S", Real{0.0, 1e6}, "Seconds that a query may take before it counts as undecided (0: no limit)"},
       {"--memory-limit", "GIB", Real{0.0, 1e6}, fmt::format("Memory of a child process in GiB (default {:g}, 0: no limit)", static_cast<double>(solvers::ChildLimits{}.memory_bytes) / bytes_of_gibibyte)},
@@ -115,7 +106,6 @@ std::vector<OptionRow> make_table() {
       // The work.
       {"--seconds", "S", Real{1e-3, 1e7}, fmt::format("Seconds to search (default {} unless --queries is given)", usual_fuzz_seconds), "fuzz"},
       {"--seconds", "S", Real{1e-6, 1e6}, "Seconds for a method and repetition; slower methods are timed on a sample", "bench"},
-      {"--seconds", "S", Real{0.0, 1e7}, fmt::format("Seconds of the whole run (0: no limit; default {} with --plugin and without --field, else 0)", usual_plugin_seconds), "report"},
       {"--seconds", "S", Real{0.0, 1e7}, "Seconds of the whole run, shared over sources and solvers (0: no limit)"},
       {"--queries", "N", Whole{1}, "Number of queries"},
       {"--most-findings", "N", Whole{0, UINT32_MAX}, "End after this number of groups of findings (0: never)"},
@@ -124,10 +114,6 @@ std::vector<OptionRow> make_table() {
       {"--kernel", "NAME", OneOf{{"scalar", "avx2", "avx512", "neon", "best"}}, "Kernel of certified and steps: scalar, avx2, avx512, neon or best"},
       {"--repetitions", "N", Whole{1, 1'000'000}, "Repetitions; times are medians"},
       {"--judge", "N", Whole{0, INT64_MAX}, "Queries to judge per group, plus every reported collision"},
-      {"--field", "", {}, "With --plugin: all methods and experiments; else certified and tight_inclusion alone"},
-      {"--method-seconds", "S", Real{1e-6, 1e6}, "Processor seconds per method, group and setting; slower methods get fewer queries"},
-      {"--experiment", "NAME", OneOf{{"field", "separation", "tolerance", "checks", "filter"}}, "Only these; repeatable: field (all methods), separation, tolerance (δ), checks (m_I), filter"},
-      {"--stability", "N", Whole{0, UINT32_MAX}, "Queries in a cell of the stability maps (0: no maps)"},
       {"--all", "", {}, "Find every collision, with its times (the default)"},
       {"--earliest", "", {}, "Find only the earliest impact and its pairs"},
       {"--free", "", {}, "Find only whether there is a collision"},
@@ -141,6 +127,7 @@ std::vector<OptionRow> make_table() {
       {"--evaluations", "N", Whole{1}, "Evaluations of the search, for each row"},
 
       // Output.
+      {"--json", "FILE", {}, "Write each row as a line of JSON", "bench"},
       {"--json", "FILE", {}, "Write the result as JSON"},
       {"--table", "", {}, "Print every file and column instead of the summary"},
       {"--baseline", "FILE.json", {}, "Known wrong answers: only new ones fail, mended ones are named"},
@@ -154,19 +141,17 @@ std::vector<OptionRow> make_table() {
       {"--view", "FILE.html", {}, "Write an HTML viewer of the first step with a collision", "step"},
       {"--view", "FILE.html", {}, "Write an HTML viewer of the mesh and its intersections", "intersections"},
       {"--view", "FILE.html", {}, "Write an HTML viewer of the first 100 findings", "fuzz"},
-      {"--view", "FILE.html", {}, "Write an HTML viewer of 100 wrong answers, split evenly among the methods", "report"},
       {"--view", "FILE.html", {}, "Write an HTML viewer of the first 100 queries with a wrong answer or label"},
       {"--out", "FILE", {}, "Write file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure", "solve", required},
       {"--out", "FILE.csv", {}, "Write the queries found, with their truth, as a dataset", "fuzz"},
-      {"--out", "FILE.html", {}, "Write the page", "report"},
       {"--out", "FILE.html", {}, "Write the page", "view", required},
       {"--out", "FOLDER", {}, "Folder to write to", "generate"},
       {"--csv", "FILE", {}, "Write a row for each pair, with its place", "intersections"},
       {"--csv", "FILE", {}, "Write a row for each collision"},
       {"--list", "", {}, "List the families with the proofs of their truth"},
       {"--npy", "", {}, "Write float64 arrays of shape (N, 8, 3), on curves (N, K+1, 4, 3) or (N, K+1, 4, 4) with weights, without the truth, instead of CSV"},
-      {"--picture", "FILE.html", {}, "Write the result as an HTML page"},
-      {"--from", "FILE.json", {}, "Read the --json file of an earlier run instead of measuring"},
+      {"--page", "FILE.html", {}, "Draw the rows: speed against error, and error over the level"},
+      {"--from", "FILE", {}, "Rows of an earlier run (--json), to be drawn by --page; repeatable"},
       {"--live", "FILE.js", {}, "Embed the solvers in WebAssembly (./run playground), so that the page decides other queries"},
       {"--emit", "FILE", {}, "Write the header of bounds (touchstone/filters/error_bounds.hpp)"},
       // clang-format on

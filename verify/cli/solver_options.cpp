@@ -35,18 +35,22 @@ std::vector<std::string> named_methods(const SolverArguments& arguments) {
 
 }  // namespace
 
-void add_solver_options(CLI::App& command, SolverArguments& arguments) {
+void add_named_solver_options(CLI::App& command, SolverArguments& arguments) {
   command.option_defaults()->group("Solver");
   add_option(command, "--method", arguments.methods);
   add_plugin_option(command, arguments);
-  add_option(command, "--tolerance", arguments.options.tolerance);
-  add_option(command, "--max-checks", arguments.options.max_checks);
   add_option(command, "--query-limit", arguments.query_limit);
   add_option(command, "--memory-limit", [&arguments](double gibibytes) {
     arguments.memory_limit = static_cast<std::uint64_t>(gibibytes * bytes_of_gibibyte);
   });
   add_option(command, "--allow-processes", arguments.allow_processes);
   add_option(command, "--show-output", arguments.show_output);
+}
+
+void add_solver_options(CLI::App& command, SolverArguments& arguments) {
+  add_named_solver_options(command, arguments);
+  add_option(command, "--tolerance", arguments.options.tolerance);
+  add_option(command, "--max-checks", arguments.options.max_checks);
 }
 
 void add_plugin_option(CLI::App& command, SolverArguments& arguments) {
@@ -191,8 +195,12 @@ Solvers::Solvers(Files& files, const SolverArguments& arguments, MethodHost host
   const bool in_children = host == MethodHost::children_with_limit && arguments.query_limit > 0.0;
   for (const std::string& name : named_methods(arguments)) {
     const fast::Method& method = method_named(name, arguments);
-    add(in_children ? solvers::solver_in_children(method, arguments.options, process)
-                    : solvers::solver_in_process(method, arguments.options),
+    fast::MethodOptions options = arguments.options;
+    if (arguments.has_usual_checks) {
+      options.max_checks = std::min(options.max_checks, method.info().usual_max_checks);
+    }
+    add(in_children ? solvers::solver_in_children(method, options, process)
+                    : solvers::solver_in_process(method, options),
         arguments.exact);
   }
   for (const std::filesystem::path& path : arguments.plugins) {

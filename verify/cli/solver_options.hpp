@@ -47,6 +47,8 @@ struct SolverArguments {
   bool allow_processes = false;
   bool show_output = false;
   fast::MethodOptions options;
+  /// True if methods take no more checks than is usual in comparisons.
+  bool has_usual_checks = false;
   /// The kernel of the certified solver; null: the best one for this processor.
   const fast::CertifiedKernel* kernel = nullptr;
 
@@ -68,9 +70,11 @@ struct SolverArguments {
   [[nodiscard]] bool empty() const { return methods.empty() && plugins.empty() && results.empty(); }
 };
 
-/// Adds --method, the options of add_plugin_option(), --tolerance, --max-checks, --query-limit,
-/// --memory-limit, --allow-processes and --show-output; the arguments must live until the command
-/// line is parsed.
+/// Adds --method, the options of add_plugin_option(), --query-limit, --memory-limit,
+/// --allow-processes and --show-output; the arguments must live until the command line is parsed.
+void add_named_solver_options(CLI::App& command, SolverArguments& arguments);
+
+/// Adds these, --tolerance and --max-checks.
 void add_solver_options(CLI::App& command, SolverArguments& arguments);
 
 /// Adds --plugin, and the terms of the promises of plugins: --answers-kinds, --starts-apart,

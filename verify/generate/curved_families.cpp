@@ -113,6 +113,40 @@ class Draws {
 /// The control points of the quarter of the unit circle.
 constexpr std::array<std::array<double, 2>, 3> quarter_circle{{{1, 0}, {1, 1}, {0, 1}}};
 
+/// The weights of these.
+constexpr std::array<double, 3> quarter_weights{1, 1, 2};
+
+/// A rotation that is nearest to the other primitive at t = eighth/8.
+struct Rotation {
+  double eighth;
+  double scale;
+  /// 1, or −1 to turn the other way.
+  double direction;
+  double gap;  ///< the least distance by the radius
+};
+
+/// Control point k of a vertex that turns towards a triangle, or of an edge along the axis that
+/// turns towards a crossing one.
+Points turning(Kind kind, const Rotation& rotation, std::size_t k) {
+  const double square = rotation.eighth * rotation.eighth;
+  const double normal_x = 64.0 - square, normal_y = 16.0 * rotation.eighth;
+  const auto across = [&](double x, double y, double height) -> std::array<double, 3> {
+    return {rotation.scale * x, rotation.direction * rotation.scale * y, height};
+  };
+  const auto turned = [&](double height) {
+    const double radius = 64.0 + square;
+    return across(radius * quarter_circle.at(k)[0], radius * quarter_circle.at(k)[1], height);
+  };
+  const auto in_plane = [&](double along, double height) {
+    const double out = 1.0 + rotation.gap;
+    return across(out * normal_x - along * normal_y, out * normal_y + along * normal_x, height);
+  };
+  if (kind == Kind::vertex_face) {
+    return {turned(0), in_plane(-1, -1), in_plane(2, -1), in_plane(-1, 2)};
+  }
+  return {turned(-3), turned(2), in_plane(-1, -1), in_plane(2, 1)};
+}
+
 /// A query of these points at each control point, moved along a curve, with the weights of the
 /// quarter of a circle if it is rational.
 template <class PointsAt>
@@ -219,26 +253,6 @@ Points above(Kind kind, double height) {
     return {{{1, 1, height}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
   }
   return {{{-3, 0, height}, {2, 0, height}, {0, -2, 0}, {0, 3, 0}}};
-}
-
-Points turning(Kind kind, const Rotation& rotation, std::size_t k) {
-  const double square = rotation.eighth * rotation.eighth;
-  const double normal_x = 64.0 - square, normal_y = 16.0 * rotation.eighth;
-  const auto across = [&](double x, double y, double height) -> std::array<double, 3> {
-    return {rotation.scale * x, rotation.direction * rotation.scale * y, height};
-  };
-  const auto turned = [&](double height) {
-    const double radius = 64.0 + square;
-    return across(radius * quarter_circle.at(k)[0], radius * quarter_circle.at(k)[1], height);
-  };
-  const auto in_plane = [&](double along, double height) {
-    const double out = 1.0 + rotation.gap;
-    return across(out * normal_x - along * normal_y, out * normal_y + along * normal_x, height);
-  };
-  if (kind == Kind::vertex_face) {
-    return {turned(0), in_plane(-1, -1), in_plane(2, -1), in_plane(-1, 2)};
-  }
-  return {turned(-3), turned(2), in_plane(-1, -1), in_plane(2, 1)};
 }
 
 std::span<const Family> curved_families() {

@@ -37,22 +37,4 @@ using Points = std::array<std::array<double, 3>, moving_points>;
 /// The points at this height above the middle of a triangle or an edge.
 [[nodiscard]] Points above(Kind kind, double height);
 
-/// A rotation that is nearest to the other primitive at t = eighth/8.
-struct Rotation {
-  double eighth;
-  double scale;
-  /// 1, or −1 to turn the other way.
-  double direction;
-  /// The least distance by the radius; if it is negative, the depth to which one goes through the
-  /// other.
-  double gap;
-};
-
-/// Control point k of a vertex that turns towards a triangle, or of an edge along the axis that
-/// turns towards a crossing one.
-[[nodiscard]] Points turning(Kind kind, const Rotation& rotation, std::size_t k);
-
-/// The weights of the control points of a rotation.
-inline constexpr std::array<double, 3> quarter_weights{1, 1, 2};
-
 }  // namespace touchstone::verify::generate

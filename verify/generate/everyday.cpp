@@ -28,13 +28,9 @@ class Scene {
  public:
   Scene(Kind kind, std::int64_t size, Random& random) : kind_(kind), size_(size), random_(random) {}
 
-  [[nodiscard]] ContactPlaces draw_contact(bool is_inside) {
+  [[nodiscard]] ContactPlaces draw_contact() {
     ContactPlaces contact;
     for (Vector& place : contact.places) place = draw_place();
-    if (is_inside) {
-      place_in_a_plane(contact.places);
-      return contact;
-    }
     switch (draws::below(random_, 3)) {
       case 0:
         share_a_point(contact);
@@ -60,18 +56,6 @@ class Scene {
     if (contact.shared && random_.coin())
       result.at((*contact.shared)[0]) = result.at((*contact.shared)[1]);
     return result;
-  }
-
-  /// The first primitive lower or higher by up to a size, the second one where it is.
-  [[nodiscard]] std::array<Layout, 2> crossing(const ContactPlaces& contact) {
-    std::array<Layout, 2> ends{contact.places, contact.places};
-    const std::int64_t height = between(size_ / 4 + 1, size_ + 1);
-    const std::int64_t down = random_.coin() ? height : -height;
-    for (std::size_t point = 0; point < second(); ++point) {
-      ends[0].at(point)[2] += down;
-      ends[1].at(point)[2] -= down;
-    }
-    return ends;
   }
 
   /// The first primitive's points begin with 0, the second one's with this.
@@ -165,40 +149,45 @@ Query in_another_order(Kind kind, const Query& query, Random& random) {
 constexpr int most_digits = 6;
 constexpr int least_power = -3, greatest_power = 4;
 
-std::array<Layout, 2> draw_ends(Kind kind, const EverydayScene& options, Random& random) {
+/// What varies from scene to scene.
+struct Setting {
+  int digits = 0;         ///< significant decimal digits of the greatest coordinates
+  int exponent = 0;       ///< the greatest coordinates are below 10 to this power
+  bool as_float = false;  ///< true if each decimal is rounded to a float
+  std::size_t end = 0;    ///< that at which they touch
+};
+
+Setting draw_setting(Random& random) {
+  Setting setting;
+  setting.digits = 1 + static_cast<int>(draws::below(random, most_digits));
+  setting.exponent = static_cast<int>(random.between(least_power, greatest_power));
+  setting.as_float = draws::one_in(random, 3);
+  setting.end = random.coin() ? 0 : 1;
+  return setting;
+}
+
+std::array<Layout, 2> draw_ends(Kind kind, const Setting& setting, bool is_apart, Random& random) {
   // Layout are sums of up to four draws: the first, two of the shape, and a motion.
-  Scene scene(kind, power_of_ten(options.digits) / 4, random);
-  const ContactPlaces contact = scene.draw_contact(options.time == ContactMoment::between);
+  Scene scene(kind, power_of_ten(setting.digits) / 4, random);
+  const ContactPlaces contact = scene.draw_contact();
   std::array<Layout, 2> ends;
-  if (options.time == ContactMoment::between) {
-    ends = scene.crossing(contact);
-  } else {
-    const std::size_t end = options.time == ContactMoment::at_start ? 0 : 1;
-    ends.at(end) = contact.places;
-    ends.at(1 - end) = scene.moved(contact);
-  }
-  if (options.clearance == 0) return ends;
+  ends.at(setting.end) = contact.places;
+  ends.at(1 - setting.end) = scene.moved(contact);
+  if (!is_apart) return ends;
   const std::size_t axis = draws::below(random, 3);
-  const std::int64_t away = random.coin() ? options.clearance : -options.clearance;
+  const std::int64_t away = random.coin() ? 1 : -1;
   for (Layout& places : ends) {
     for (std::size_t point = 0; point < scene.second(); ++point) places.at(point).at(axis) += away;
   }
   return ends;
 }
 
-EverydayScene draw_scene(Random& random) {
-  return {.digits = 1 + static_cast<int>(draws::below(random, most_digits)),
-          .exponent = static_cast<int>(random.between(least_power, greatest_power)),
-          .as_float = draws::one_in(random, 3),
-          .time = random.coin() ? ContactMoment::at_start : ContactMoment::at_end,
-          .clearance = 0};
-}
-
-}  // namespace
-
-Query everyday_query(Kind kind, const EverydayScene& scene, Random& random) {
-  const std::array<Layout, 2> ends = draw_ends(kind, scene, random);
-  const Notation notation{.places = scene.digits - scene.exponent, .as_float = scene.as_float};
+/// \param is_apart True to move the first primitive away by a unit at all times.
+Query draw_query(Kind kind, bool is_apart, Random& random) {
+  const Setting setting = draw_setting(random);
+  const std::array<Layout, 2> ends = draw_ends(kind, setting, is_apart, random);
+  const Notation notation{.places = setting.digits - setting.exponent,
+                          .as_float = setting.as_float};
   Query query{};
   for (std::size_t end = 0; end < 2; ++end) {
     for (std::size_t point = 0; point < moving_points; ++point) {
@@ -210,15 +199,11 @@ Query everyday_query(Kind kind, const EverydayScene& scene, Random& random) {
   return in_another_order(kind, query, random);
 }
 
-Query everyday_contact(Kind kind, Random& random) {
-  return everyday_query(kind, draw_scene(random), random);
-}
+}  // namespace
 
-Query everyday_near_contact(Kind kind, Random& random) {
-  EverydayScene scene = draw_scene(random);
-  scene.clearance = 1;
-  return everyday_query(kind, scene, random);
-}
+Query everyday_contact(Kind kind, Random& random) { return draw_query(kind, false, random); }
+
+Query everyday_near_contact(Kind kind, Random& random) { return draw_query(kind, true, random); }
 
 Decimal shortest_decimal(double x) {
   std::array<char, 32> text{};

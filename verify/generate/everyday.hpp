@@ -19,29 +19,8 @@
 
 namespace touchstone::verify::generate {
 
-/// The time at which the primitives of a scene touch.
-enum class ContactMoment : std::uint8_t {
-  at_start,
-  at_end,
-  between  ///< in the middle of the step, well inside both: no rounding matters
-};
-
-/// A scene of decimals.
-struct EverydayScene {
-  int digits = 3;         ///< significant decimal digits of the greatest coordinates, 1 to 15
-  int exponent = 0;       ///< the greatest coordinates are below 10 to this power, -3 to 15
-  bool as_float = false;  ///< true if each decimal is rounded to a float
-  ContactMoment time = ContactMoment::at_end;
-  /// Units of the last digit by which the first primitive is displaced from the contact, on one
-  /// axis, at all times; if far above 10^digits, nothing touches.
-  std::int64_t clearance = 0;
-};
-
-/// A query of such a scene. Without clearance it touches at that moment, and may touch earlier,
-/// too. Half of those that share a point then share it all the time.
-[[nodiscard]] Query everyday_query(Kind kind, const EverydayScene& scene, Random& random);
-
-/// One that touches at t=0 or at t=1. Coordinates are decimals of at most six digits, or the floats
+/// A query that touches at t=0 or at t=1, and may touch earlier, too. Half of those that share a
+/// point then share it all the time. Coordinates are decimals of at most six digits, or the floats
 /// nearest to them; the greatest is from 1e-4 to 1e4 in magnitude.
 [[nodiscard]] Query everyday_contact(Kind kind, Random& random);
 

@@ -1,8 +1,6 @@
 #include "verify/generate/workload.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -78,15 +76,6 @@ void add_faces(int cells, int first_vertex, Random& random, std::vector<fast::Fa
   }
 }
 
-/// A coordinate of an end contact.
-double coordinate(const EndContactOptions& options, Random& random) {
-  if (!options.two_decimals) return options.scale * (2.0 * random.unit() - 1.0);
-  // A quotient of whole numbers is rounded like the decimal.
-  const double parts = std::round(100.0 / std::min(options.scale, 1.0));
-  const auto most = static_cast<std::int64_t>(std::round(options.scale * parts));
-  return static_cast<double>(random.between(-most, most)) / parts;
-}
-
 }  // namespace
 
 mesh::MovingMesh moving_patches(const PatchOptions& options) {
@@ -111,24 +100,6 @@ mesh::MovingMesh moving_patches(const PatchOptions& options) {
           .vertices = fast::MovingVertices(start, end),
           .faces = faces,
           .edges = fast::edges_of(faces)};
-}
-
-data::QueryGroup end_contacts(Kind kind, const EndContactOptions& options) {
-  Random random(mix(options.seed ^ hash("end contacts")));
-  const bool has_face = kind == Kind::vertex_face;
-  std::vector<Query> queries(options.count);
-  for (Query& query : queries) {
-    for (double& x : query.coordinates) x = coordinate(options, random);
-    const std::int64_t first = has_face ? 0 : random.between(0, 1);
-    const std::int64_t second = has_face ? random.between(1, 3) : random.between(2, 3);
-    const auto at_end = [&](std::int64_t point) {
-      return query.coordinates.begin() + 3 * (static_cast<std::int64_t>(moving_points) + point);
-    };
-    std::copy_n(at_end(second), 3, at_end(first));
-  }
-  return {
-      options.two_decimals ? "contact at t=1, two decimals" : "contact at t=1, full significands",
-      kind, queries};
 }
 
 }  // namespace touchstone::verify::generate

@@ -2,8 +2,7 @@
 
 /// \file
 /// The built-in workload of the benchmark: two patches of triangle mesh that move through
-/// each other in one step, as cloth does when its step is too long. Also simple contacts at t=1, at
-/// any scale, for the report.
+/// each other in one step, as cloth does when its step is too long.
 ///
 /// The patches are square grids of cells, each cut into two triangles, bent like shallow bowls with
 /// their bottoms towards each other, one turned against the other so that no edges are parallel.
@@ -11,11 +10,8 @@
 /// neighbours. As in a simulation, the candidates are those of the broad phase, including pairs
 /// within one patch.
 
-#include <cstddef>
 #include <cstdint>
 
-#include "touchstone/query.hpp"
-#include "verify/data/query_group.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 
 namespace touchstone::verify::generate {
@@ -30,19 +26,5 @@ struct PatchOptions {
 /// The two patches: a function of the options, the same on every machine.
 /// \throws std::invalid_argument for options out of range.
 [[nodiscard]] mesh::MovingMesh moving_patches(const PatchOptions& options = {});
-
-struct EndContactOptions {
-  /// No coordinate is greater in magnitude; positive and finite.
-  double scale = 1.0;
-  /// True for coordinates that are doubles next to multiples of a hundredth of min(scale, 1), as
-  /// people type them; otherwise they have full significands. \pre then 1/scale or scale is whole.
-  bool two_decimals = false;
-  std::uint64_t seed = 2021;
-  std::size_t count = 1000;
-};
-
-/// Contacts at t=1 at the latest, exact by equality: there a vertex of one primitive has the same
-/// coordinates as a vertex of the other. All other coordinates are uniform.
-[[nodiscard]] data::QueryGroup end_contacts(Kind kind, const EndContactOptions& options);
 
 }  // namespace touchstone::verify::generate

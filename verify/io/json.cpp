@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
@@ -29,25 +30,47 @@ double number_from_json(const nlohmann::json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
-nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_bytes) {
+namespace {
+
+/// \param place of the text in the file
+nlohmann::json parsed(std::string_view text, const std::filesystem::path& path,
+                      FilePosition place) {
   std::map<int, std::set<std::string>> keys;  // of the open object of each depth
   const auto check = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& value) {
     if (depth > deepest_json) {
-      throw DatasetError(path, {}, "nested more than " + std::to_string(deepest_json) + " deep");
+      throw DatasetError(path, place, "nested more than " + std::to_string(deepest_json) + " deep");
     }
     if (event == nlohmann::json::parse_event_t::object_start) keys[depth + 1].clear();
     if (event == nlohmann::json::parse_event_t::key && !keys[depth].insert(value).second) {
-      throw DatasetError(path, {}, "repeated key " + quote(value.get<std::string>()));
+      throw DatasetError(path, place, "repeated key " + quote(value.get<std::string>()));
     }
     return true;
   };
   try {
-    return nlohmann::json::parse(without_byte_order_mark(read_file(path, most_bytes), path), check);
+    return nlohmann::json::parse(text, check);
   } catch (const nlohmann::json::parse_error& error) {
-    throw DatasetError(path, {}, "no JSON: " + reason_of(error));
+    throw DatasetError(path, place, "no JSON: " + reason_of(error));
   } catch (const nlohmann::json::out_of_range& error) {
-    throw DatasetError(path, {}, "a number beyond the range: " + reason_of(error));
+    throw DatasetError(path, place, "a number beyond the range: " + reason_of(error));
   }
+}
+
+}  // namespace
+
+nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_bytes) {
+  const std::string text = read_file(path, most_bytes);
+  return parsed(without_byte_order_mark(text, path), path, {});
+}
+
+std::vector<nlohmann::json> read_json_lines(const std::filesystem::path& path,
+                                            std::size_t most_bytes) {
+  std::vector<nlohmann::json> all;
+  std::istringstream lines(read_file(path, most_bytes));
+  std::size_t number = 1;
+  for (std::string line; std::getline(lines, line); ++number) {
+    if (!line.empty()) all.push_back(parsed(line, path, {.line = number}));
+  }
+  return all;
 }
 
 nlohmann::json text_or_null(std::string_view text) {
@@ -64,6 +87,10 @@ std::string json_document(const nlohmann::json& json) {
   static constexpr auto replace = nlohmann::json::error_handler_t::replace;
   static constexpr bool only_ascii = true;
   return json.dump(2, ' ', only_ascii, replace) + "\n";
+}
+
+std::string json_line(const nlohmann::json& json) {
+  return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace touchstone::verify::io

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace touchstone::verify::io {
 
@@ -33,6 +34,11 @@ inline constexpr int deepest_json = 100;
 /// has a number beyond the range or a key twice in one object.
 [[nodiscard]] nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_bytes);
 
+/// The JSON of each line of a file that is not empty. \throws DatasetError as read_json, with the
+/// line
+[[nodiscard]] std::vector<nlohmann::json> read_json_lines(const std::filesystem::path& path,
+                                                          std::size_t most_bytes);
+
 /// The reason that an exception of JSON gives, without the library's name and number of it: "key
 /// 'format' not found". The text of any other exception is as it is.
 [[nodiscard]] std::string reason_of(const std::exception& error);
@@ -40,5 +46,7 @@ inline constexpr int deepest_json = 100;
 /// JSON as it is written to a file: in ASCII, so that no name in it acts on a terminal. What is no
 /// UTF-8 becomes U+FFFD.
 [[nodiscard]] std::string json_document(const nlohmann::json& json);
+/// The same in one line.
+[[nodiscard]] std::string json_line(const nlohmann::json& json);
 
 }  // namespace touchstone::verify::io

@@ -41,6 +41,10 @@ class OutputFile {
   /// \throws DatasetError if they cannot be written.
   void write(std::string_view bytes);
 
+  /// Writes the bytes so far to the file, so that they are there if the process is killed.
+  /// \throws DatasetError if they cannot be written.
+  void flush();
+
   /// Replaces bytes at an offset (in bytes from the start); they must be within the written part.
   /// \throws DatasetError if they cannot be written.
   void overwrite(std::uint64_t offset, std::string_view bytes);
@@ -56,7 +60,6 @@ class OutputFile {
 
  private:
   void open_temporary();
-  void flush();
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;

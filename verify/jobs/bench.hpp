@@ -1,110 +1,109 @@
 #pragma once
 
 /// \file
-/// Speed and error of solvers on one group of queries, in one run.
+/// Speed and error of a solver on one group of queries: a row of `touchstone bench`.
 ///
-/// **Speed.** As in timing.hpp. Each repetition times every solver once and, among them, a pass
-/// that only reads the queries: the physical limit. The median of the repetitions counts. A solver
-/// that would take longer than BenchOptions::seconds for all queries is timed on a sample.
-/// Afterwards single queries are timed.
+/// **Speed.** As in timing.hpp. A solver that would take longer than BenchOptions::seconds for all
+/// queries is timed on a sample. Each repetition times the solver, the certified solver on the same
+/// sample, and a pass that only reads the queries of the group: the physical limit. The three take
+/// turns, so that rows measured at different times can be compared. The median of the repetitions
+/// counts. Afterwards single queries are timed.
 ///
-/// **Error.** Queries are decided by the oracle and the answers to them judged. In large groups the
-/// oracle decides an evenly spread sample, and the queries that any solver calls a collision (or is
-/// undecided about, or in error). Every counted fault is real. All false positives are found
-/// (unless there are more than BenchOptions::judge); a false negative outside of the sample is
-/// found only if another solver calls it a collision.
+/// **Error.** Queries are decided by the oracle and the answers to them judged. In large samples
+/// the oracle decides an evenly spread part, and the queries that the solver or the certified
+/// solver calls a collision (or is undecided about, or in error), up to BenchOptions::judge each.
+/// Every counted fault is real.
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "fast/method.hpp"
 #include "touchstone/query.hpp"
 #include "verify/data/query_group.hpp"
-#include "verify/jobs/timing.hpp"
+#include "verify/judge/ground_truth_cache.hpp"
 #include "verify/judge/judgement.hpp"
 #include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::jobs {
 
 struct BenchOptions {
-  /// Minimum separation, for the solvers and for the ground truth.
-  Separation separation = {};
   /// At least 1.
   std::size_t repetitions = 5;
   /// A solver is timed on as many queries as take it about this long; positive.
   double seconds = 2.0;
-  /// The number of queries that are judged of a larger group, and the greatest number of further
-  /// ones that a solver calls a collision; 0: none.
+  /// The number of queries that are judged of a larger sample, and the greatest number of further
+  /// ones that are called a collision; 0: none.
   std::size_t judge = 200'000;
   /// The greatest number of single queries that are timed; 0: none.
   std::size_t singles = 20'000;
   /// Cores to use for the oracle; 0: all of them. Solvers run on one.
   unsigned threads = 0;
-  /// Called now and then with the fraction of the group's work that is done, from this thread.
+  /// Called now and then with the fraction of a row's work that is done, from this thread.
   std::function<void(double)> on_progress = nullptr;
-  /// Once true, no further work begins, and the result is partial.
+  /// Once true, no further work begins, and the row is partial.
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Nanoseconds that single queries take, one call each, without the clock's own cost. Each is the
-/// shortest of up to three sweeps over the queries, which leaves out other work of the machine.
+/// Nanoseconds that single queries take, one call each, without the clock's own cost.
 struct SingleTimes {
-  std::size_t queries = 0;
   double mean = 0.0;
   double p50 = 0.0;
   double p99 = 0.0;
-  double max = 0.0;
 };
 
-/// One solver's part in a result.
-struct SolverResult {
-  std::string name;
+/// A solver under some settings on a group.
+struct BenchRow {
+  std::string source;  ///< the name of the group
+  Kind kind = Kind::vertex_face;
+  /// Of a family of growing difficulty; nothing for others.
+  std::optional<int> level = std::nullopt;
+  std::string method;
   fast::Promise promise = fast::Promise::none;
-  /// The number of queries that it is timed on: those that it answered.
-  std::size_t queries = 0;
-  TimesPerQuery times;
+  /// The tolerance and the limit of checks that it was asked with, and the separation.
+  fast::MethodOptions options;
+  std::size_t queries = 0;  ///< of the group
+  std::size_t timed = 0;    ///< of these, an evenly spread sample
+  /// Nanoseconds a query: medians, NaN if there was no repetition.
+  double nanoseconds = 0.0;
+  double certified_nanoseconds = 0.0;  ///< of the certified solver on the same sample
+  double pass_nanoseconds = 0.0;       ///< of a pass that only reads the queries
   /// Empty if they were not timed.
   std::optional<SingleTimes> singles;
   /// The stages that ended its queries; empty if it has none.
   std::vector<solvers::StageCount> stages;
-  /// The judgement on its answers to the queries that were judged; `index` of a wrong answer is the
-  /// position in the group. toi_errors is the distance from toi_lower to the exact time of impact.
+  /// Queries of the sample that it gave up, or that took as many checks as it may do.
+  std::uint64_t at_limit = 0;
+  /// The judgement on its answers to the queries that were judged.
   judge::Judgement judgement;
-  /// The sources of the queries of judgement.wrong_answers, in the same order.
-  std::vector<data::QueryPlace> wrong_places;
-};
-
-/// Results of a run on one group.
-struct BenchResult {
-  std::string name;  ///< of the group
-  Kind kind = Kind::vertex_face;
-  Separation separation = {};
-  std::size_t queries = 0;
-  std::size_t judged = 0;      ///< queries decided by the oracle
-  std::size_t collisions = 0;  ///< of these
-  TimesPerQuery memory_pass;
-  /// In the order of the solvers.
-  std::vector<SolverResult> solvers;
   bool interrupted = false;
 };
 
 /// True if the solver gave a wrong answer that its promise excludes. Without a promise it breaks
 /// none.
-[[nodiscard]] bool broke_promise(const SolverResult& result);
+[[nodiscard]] bool broke_promise(const BenchRow& row);
 
-/// True if any solver broke its promise.
-[[nodiscard]] bool any_broke_promise(std::span<const BenchResult> results);
+/// The rows of one group; the oracle decides a query once for all of them.
+class Bench {
+ public:
+  /// Group and options must live as long as this.
+  /// \throws std::invalid_argument for options out of range or an empty group.
+  Bench(const data::QueryGroup& group, const BenchOptions& options);
 
-/// Times and judges the solvers on the group.
-/// \throws std::invalid_argument for options out of range or an empty group, and whatever a solver
-/// throws.
-[[nodiscard]] BenchResult bench(const data::QueryGroup& group,
-                                std::span<const solvers::Solver* const> solvers,
-                                const BenchOptions& options = {});
+  /// Times and judges a solver. \param asked its settings, of which the separation is used
+  /// \throws whatever the solver throws.
+  [[nodiscard]] BenchRow row(const solvers::Solver& solver, const fast::MethodOptions& asked);
+
+ private:
+  const data::QueryGroup& group_;
+  const BenchOptions& options_;
+  judge::GroundTruthCache truths_;
+  std::unique_ptr<fast::Method> certified_;
+};
 
 }  // namespace touchstone::verify::jobs

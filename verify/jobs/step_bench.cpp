@@ -1,11 +1,7 @@
 #include "verify/jobs/step_bench.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <fstream>
 #include <span>
 #include <stdexcept>
 
@@ -17,25 +13,6 @@
 
 namespace touchstone::verify::jobs {
 namespace {
-
-/// The greatest resident memory since the last call, in bytes; 0: unknown. (That of getrusage never
-/// falls.)
-std::size_t take_peak() {
-  std::size_t kilobytes = 0;
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    if (word == "VmHWM:" && status >> kilobytes) break;
-  }
-  std::ofstream("/proc/self/clear_refs") << "5";
-  return 1024 * kilobytes;
-}
-
-/// The pages that this process has touched for the first time.
-std::size_t page_faults() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_minflt);
-}
 
 /// The times of one part of a step, one for each repetition.
 class Repetitions {
@@ -60,14 +37,7 @@ class Repetitions {
 /// The times of all repetitions with this number of threads.
 struct Series {
   int threads = 1;
-  Repetitions trees = {};
-  Repetitions candidates = {};
-  Repetitions collisions = {};
-  Repetitions earliest = {};
-  Repetitions next = {};
-  Repetitions free_step_size = {};
-  Repetitions limit_of_scene = {};
-  Repetitions limit_of_pairs = {};
+  std::array<Repetitions, step_parts.size()> parts = {};
 };
 
 class StepMeasurement {
@@ -86,17 +56,8 @@ class StepMeasurement {
     result.vertices = mesh_.vertices.size();
     result.edges = mesh_.edges.size();
     result.faces = mesh_.faces.size();
-    result.memory = memory();
     for (std::size_t i = 0; i < options_.repetitions && !stopped(); ++i) {
-      pass_over_memory();
-      for (Series& series : series_) {
-        if (stopped()) break;
-        try {
-          repeat(series);
-        } catch (const fast::Stopped&) {
-          break;
-        }
-      }
+      repeat();
       if (options_.on_progress) {
         options_.on_progress(static_cast<double>(i + 1) /
                              static_cast<double>(options_.repetitions));
@@ -108,16 +69,9 @@ class StepMeasurement {
     result.earliest = earliest_;
     result.memory_pass = memory_pass_.median();
     for (const Series& series : series_) {
-      if (series.limit_of_pairs.empty()) continue;
-      result.times.push_back({.threads = series.threads,
-                              .trees = series.trees.median(),
-                              .candidates = series.candidates.median(),
-                              .collisions = series.collisions.median(),
-                              .earliest = series.earliest.median(),
-                              .next = series.next.median(),
-                              .free_step_size = series.free_step_size.median(),
-                              .limit_of_scene = series.limit_of_scene.median(),
-                              .limit_of_pairs = series.limit_of_pairs.median()});
+      if (series.parts.back().empty()) continue;
+      StepTimes& times = result.times.emplace_back(StepTimes{.threads = series.threads});
+      std::ranges::transform(series.parts, times.parts.begin(), &Repetitions::median);
     }
     result.earliest_agrees = result.times.empty() || earliest_agrees();
     return result;
@@ -142,42 +96,33 @@ class StepMeasurement {
     return {mesh_.vertices, {.edges = mesh_.edges, .faces = mesh_.faces, .points = {}}, options};
   }
 
-  /// Before all other steps, whose memory would be used again.
-  [[nodiscard]] StepMemory memory() const {
-    StepMemory memory;
+  /// All numbers of threads in turn, up to a stop.
+  void repeat() {
+    pass_over_memory();
     try {
-      (void)take_peak();
-      const std::size_t before = take_peak(), faults = page_faults();
-      const fast::Step step = step_with(1);
-      (void)step.collisions();
-      const std::size_t faults_of_both = page_faults(), peak = take_peak();
-      (void)step.with_separation(options_.separation).collisions();
-      memory = {.peak = peak > before ? peak - before : 0,
-                .faults_of_first = faults_of_both - faults,
-                .faults_of_next = page_faults() - faults_of_both};
+      for (Series& series : series_) repeat(series);
     } catch (const fast::Stopped&) {
-      // Nothing else is measured then.
+      // Its times are not complete, and are left out.
     }
-    return memory;
   }
 
   void repeat(Series& series) {
+    auto part = series.parts.begin();
     std::optional<fast::Step> step;
-    series.trees.add([&] { step.emplace(step_with(series.threads)); });
+    (part++)->add([&] { step.emplace(step_with(series.threads)); });
     for (auto& count : candidates_) count = 0;
-    series.candidates.add([&] {
+    (part++)->add([&] {
       step->candidates([&](const fast::StepCandidates& some) {
         candidates_.at(index_of(some.kind)) += some.pairs.size();
       });
     });
-    series.collisions.add([&] { collisions_ = step->collisions(); });
-    series.earliest.add([&] { earliest_ = step->earliest(); });
-    series.next.add([&] { (void)step->with_separation(options_.separation); });
-    constexpr double part = 0.2;
-    series.free_step_size.add([&] { (void)step->free_step_size(); });
-    series.limit_of_scene.add([&] { (void)fast::line_search_limit(*step, part); });
-    series.limit_of_pairs.add([&] {
-      (void)fast::line_search_limit(*step, part, {.start_distance = fast::StartDistance::of_pair});
+    (part++)->add([&] { collisions_ = step->collisions(); });
+    (part++)->add([&] { earliest_ = step->earliest(); });
+    constexpr double fifth = 0.2;
+    (part++)->add([&] { (void)step->free_step_size(); });
+    (part++)->add([&] { (void)fast::line_search_limit(*step, fifth); });
+    (part++)->add([&] {
+      (void)fast::line_search_limit(*step, fifth, {.start_distance = fast::StartDistance::of_pair});
     });
   }
 

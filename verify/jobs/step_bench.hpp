@@ -4,14 +4,15 @@
 /// The time of a whole step of a scene (touchstone/step.hpp) and of its parts, and for comparison
 /// that of reading the mesh once.
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "fast/method.hpp"
 #include "touchstone/step.hpp"
 #include "verify/jobs/work_time.hpp"
 #include "verify/mesh/moving_mesh.hpp"
@@ -30,28 +31,19 @@ struct StepBenchOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
+/// The parts that are timed, each with another search but for the first: making the step (copies of
+/// the vertices, boxes and trees of them), finding all candidates, which are counted and not
+/// stored, all collisions with their times of impact, the earliest impact alone; and line searches:
+/// Step::free_step_size, and fast::line_search_limit in L2 with a fifth of the distance of the
+/// scene and of each pair.
+inline constexpr std::array<std::string_view, 7> step_parts{
+    "trees",          "candidates",     "collisions",    "earliest",
+    "free_step_size", "limit_of_scene", "limit_of_pairs"};
+
 /// The times with this number of threads, medians over the repetitions.
 struct StepTimes {
   int threads = 0;
-  WorkTime trees;       ///< making the step: copies of the vertices, boxes and trees of them
-  WorkTime candidates;  ///< finding all candidates, which are counted and not stored
-  WorkTime collisions;  ///< all collisions with their times of impact, including the search
-  WorkTime earliest;    ///< the earliest impact alone, the search included
-  WorkTime next;        ///< making the next step of the mesh (Step::with_places)
-  // Line searches, from the step: Step::free_step_size, and fast::line_search_limit in L2 with
-  // p = 0.2 of the distance of the scene and of each pair.
-  WorkTime free_step_size;
-  WorkTime limit_of_scene;
-  WorkTime limit_of_pairs;
-};
-
-/// The memory of steps with their collisions, in one thread.
-struct StepMemory {
-  /// The greatest resident memory of the first step above that before it, in bytes; 0: unknown.
-  std::size_t peak = 0;
-  /// Pages that were touched for the first time: in this step, and in the next one of the mesh.
-  std::size_t faults_of_first = 0;
-  std::size_t faults_of_next = 0;
+  std::array<WorkTime, step_parts.size()> parts = {};  ///< by step_parts
 };
 
 /// The counts of one kind.
@@ -70,7 +62,6 @@ struct StepResult {
   StepCounts edge_edge;
   /// Reading the vertices and the elements once, in one thread: the median.
   WorkTime memory_pass;
-  StepMemory memory;
   /// With one thread, then with the requested number if it is greater.
   std::vector<StepTimes> times;
   /// The earliest impact; empty if there is no collision.

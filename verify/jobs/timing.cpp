@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "verify/base/deadline.hpp"
 
@@ -31,15 +32,8 @@ double nanoseconds_since(WallClock::time_point start) {
 
 }  // namespace
 
-double TimesPerQuery::median() const { return jobs::median(repetitions); }
-
-double TimesPerQuery::min() const { return quantile(repetitions, 0.0); }
-
-std::shared_ptr<const Sample> Samples::of(std::size_t count) {
-  const Queries all = group_->queries();
-  count = std::min(count, all.size());
-  std::weak_ptr<const Sample>& known = samples_[count];
-  if (auto sample = known.lock()) return sample;
+std::shared_ptr<const Sample> sample_of(const data::QueryGroup& group, std::size_t count) {
+  const Queries all = group.queries();
   const auto sample = std::make_shared<Sample>();
   sample->positions = spread_sample(all.size(), count);
   sample->queries = all;
@@ -51,58 +45,52 @@ std::shared_ptr<const Sample> Samples::of(std::size_t count) {
     }
     sample->queries.numbers = sample->copies;
   }
-  known = sample;
   return sample;
 }
 
-TimedSolver::TimedSolver(const solvers::Solver& solver, Samples& samples,
+TimedSolver::TimedSolver(const solvers::Solver& solver, const data::QueryGroup& group,
                          const Separation& separation)
-    : solver_(&solver), samples_(&samples), separation_(separation) {}
+    : solver_(&solver), group_(&group), separation_(separation) {}
 
-void TimedSolver::take(std::size_t count) {
-  sample_ = samples_->of(count);
+void TimedSolver::take(std::shared_ptr<const Sample> sample) {
+  sample_ = std::move(sample);
   answers_.resize(queries().size());
   calls_ = 0;
 }
 
-void TimedSolver::choose_sample(const SampleLimits& limits) {
-  const std::size_t most = std::min(limits.most, samples_->group().queries().size());
-  std::size_t count = solver_->only_as_a_whole() ? most : std::min(first_sample, most);
+void TimedSolver::choose_sample(double seconds, const std::atomic<bool>* stop) {
+  const std::size_t most = group_->queries().size();
+  std::size_t count = std::min(first_sample, most);
   // The speed varies from query to query, so a small sample is not significant.
   for (;;) {
-    take(count);
-    double growth = possible_growth(limits);
-    if (!(solver_->allowance() > 0.0)) return;
-    if (count == most || base::is_stopped(limits.stop)) return;
+    take(sample_of(*group_, count));
+    double growth = possible_growth(seconds);
+    if (count == most || base::is_stopped(stop)) return;
     // The first run of a sample also accesses its memory for the first time.
-    if (growth < 2.0) growth = possible_growth(limits);
-    if (growth < 2.0 || base::is_stopped(limits.stop)) return;
+    if (growth < 2.0) growth = possible_growth(seconds);
+    if (growth < 2.0 || base::is_stopped(stop)) return;
     count = std::min(count * std::bit_floor(static_cast<std::size_t>(growth)), most);
   }
 }
 
-double TimedSolver::possible_growth(const SampleLimits& limits) {
-  double nanoseconds = 0.0;
-  if (limits.companion != nullptr) nanoseconds = time_calls(*limits.companion, 1);
+double TimedSolver::possible_growth(double seconds) {
   const WallClock::time_point start = WallClock::now();
-  double own = time_calls(*solver_, 1);
+  double nanoseconds = time_calls(1);
   // A child process may sleep.
-  if (reply_.time) own = std::max(own, nanoseconds_since(start));
-  calls_ = calls_for(own);
-  return std::min(aimed_share * 1e9 * limits.seconds / std::max(own, nanoseconds), most_growth);
+  if (reply_.time) nanoseconds = std::max(nanoseconds, nanoseconds_since(start));
+  calls_ = calls_for(nanoseconds);
+  return std::min(aimed_share * 1e9 * seconds / nanoseconds, most_growth);
 }
 
-double TimedSolver::time_calls(const solvers::Solver& solver, std::size_t calls) {
+double TimedSolver::time_calls(std::size_t calls) {
   const solvers::SolveRequest request{.queries = queries(), .separation = separation_};
   double own = 0.0;
   const double here = time_of(calls, [&] {
-    reply_ = solver.solve(request, answers_);
+    reply_ = solver_->solve(request, answers_);
     unplaced_crashes_ += reply_.unplaced_crashes;
     own += reply_.time.value_or(solvers::SolverTime{}).processor_nanoseconds;
   });
-  const double nanoseconds = reply_.time ? own / static_cast<double>(calls) : here;
-  if (&solver == solver_) latest_ = nanoseconds;
-  return nanoseconds;
+  return reply_.time ? own / static_cast<double>(calls) : here;
 }
 
 double TimedSolver::asked() const {
@@ -110,15 +98,8 @@ double TimedSolver::asked() const {
 }
 
 void TimedSolver::repeat() {
-  if (calls_ != 0 && !(solver_->allowance() > 0.0)) {
-    // The time is used up: the latest call, whose answers are kept, is the only repetition.
-    if (times_.repetitions.empty()) times_.repetitions.push_back(latest_ / asked());
-    return;
-  }
-  if (calls_ == 0) calls_ = calls_for(time_calls(*solver_, 1));
-  const double nanoseconds = time_calls(*solver_, calls_);
-  seconds_spent_ += 1e-9 * nanoseconds * static_cast<double>(calls_);
-  times_.repetitions.push_back(nanoseconds / asked());
+  if (calls_ == 0) calls_ = calls_for(time_calls(1));
+  times_.push_back(time_calls(calls_) / asked());
 }
 
 std::optional<std::vector<double>> TimedSolver::time_singles(std::size_t count, double seconds,
@@ -173,12 +154,6 @@ bool takes_curves(const fast::Terms& terms, QueryShape shape) {
 
 std::size_t calls_for(double nanoseconds) {
   return static_cast<std::size_t>(std::clamp(least_nanoseconds / nanoseconds, 1.0, 1e6));
-}
-
-std::vector<std::size_t> order_of_repetition(std::size_t items, std::size_t repetition) {
-  std::vector<std::size_t> order(items);
-  for (std::size_t i = 0; i < items; ++i) order[i] = (i + repetition) % items;
-  return order;
 }
 
 double clock_nanoseconds() {

@@ -1,24 +1,21 @@
 #pragma once
 
 /// \file
-/// The measuring engine of benchmarks and reports: the time that a solver takes for queries of a
-/// group.
+/// The time that a solver takes for queries of a group.
 ///
 /// **Sample.** A solver is timed on an evenly spread sample of the group, which grows until it
-/// takes about as long as it may, or has all queries that may be asked. Its size is sixteen times a
-/// power of two, or that of the group; smaller samples are part of larger ones, and a repeated
-/// choice gives the same sample.
+/// takes about as long as it may, or has all queries. Its size is sixteen times a power of two, or
+/// that of the group; smaller samples are part of larger ones, and a repeated choice gives the same
+/// sample.
 ///
 /// **Time.** A repetition is one call for the whole sample, or the mean of several if one is short.
 /// Its time is processor time: of the calling thread, or of the child process that it waits for.
-/// The repetitions of several solvers are to be interleaved (order_of_repetition). Single queries
-/// are timed by the wall clock, one call each; the shortest of up to three sweeps over them leaves
-/// out other work of the machine.
+/// Single queries are timed by the wall clock, one call each; the shortest of up to three sweeps
+/// over them leaves out other work of the machine.
 
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -33,27 +30,6 @@
 
 namespace touchstone::verify::jobs {
 
-/// Nanoseconds a query, one number for each repetition.
-struct TimesPerQuery {
-  std::vector<double> repetitions;
-
-  /// NaN if there was no repetition; the same below.
-  [[nodiscard]] double median() const;
-  [[nodiscard]] double min() const;
-};
-
-/// Limits of a sample's size.
-struct SampleLimits {
-  /// Queries; at least 1.
-  std::size_t most = 0;
-  /// Processor time that one call for the sample may take; positive.
-  double seconds = 0.0;
-  /// A solver that is timed on the same sample, and may take no longer; may be null.
-  const solvers::Solver* companion = nullptr;
-  /// May be null. Once true, the sample grows no more.
-  const std::atomic<bool>* stop = nullptr;
-};
-
 /// Evenly spread queries of a group.
 struct Sample {
   /// In the group, ascending.
@@ -63,38 +39,30 @@ struct Sample {
   Queries queries;
 };
 
-/// The samples of a group. One that several solvers are timed on is in memory once.
-class Samples {
- public:
-  /// The group must live as long as this and as its samples.
-  explicit Samples(const data::QueryGroup& group) : group_(&group) {}
-
-  /// The sample of this number of queries, or of all there are.
-  [[nodiscard]] std::shared_ptr<const Sample> of(std::size_t count);
-  [[nodiscard]] const data::QueryGroup& group() const { return *group_; }
-
- private:
-  const data::QueryGroup* group_;
-  /// Those in use, by their size.
-  std::map<std::size_t, std::weak_ptr<const Sample>> samples_;
-};
+/// The sample of this number of queries of a group, or of all there are. It is valid as long as the
+/// group is.
+[[nodiscard]] std::shared_ptr<const Sample> sample_of(const data::QueryGroup& group,
+                                                      std::size_t count);
 
 /// A solver, the sample of a group that it is timed on, its answers and its times.
 class TimedSolver {
  public:
-  /// Solver and samples must live as long as this object. Its sample is empty.
-  TimedSolver(const solvers::Solver& solver, Samples& samples, const Separation& separation);
+  /// Solver and group must live as long as this object. Its sample is empty.
+  TimedSolver(const solvers::Solver& solver, const data::QueryGroup& group,
+              const Separation& separation);
   TimedSolver(const TimedSolver&) = delete;
   TimedSolver& operator=(const TimedSolver&) = delete;
   TimedSolver(TimedSolver&&) = default;
   TimedSolver& operator=(TimedSolver&&) = default;
   ~TimedSolver() = default;
 
-  /// Takes the evenly spread sample of this number of queries, or all there are.
-  void take(std::size_t count);
+  /// Takes a sample of the group.
+  void take(std::shared_ptr<const Sample> sample);
   /// Solves larger and larger samples, and keeps the last one.
-  void choose_sample(const SampleLimits& limits);
-  /// Times the sample once more, unless the solver may take no more time (Solver::allow).
+  /// \param seconds Processor time that one call for the sample may take; positive.
+  /// \param stop May be null. Once true, the sample grows no more.
+  void choose_sample(double seconds, const std::atomic<bool>* stop);
+  /// Times the sample once more.
   void repeat();
   /// Nanoseconds of each of `count` queries that are evenly spread over the sample, each solved
   /// alone, without the clock's own cost; infinite if it was not asked. After `seconds` no further
@@ -107,8 +75,7 @@ class TimedSolver {
   [[nodiscard]] judge::Judgement judge(std::span<const judge::GroundTruth> truths) const;
 
   [[nodiscard]] const solvers::Solver& solver() const { return *solver_; }
-  [[nodiscard]] const Separation& separation() const { return separation_; }
-  /// The sample.
+  [[nodiscard]] const std::shared_ptr<const Sample>& sample() const { return sample_; }
   [[nodiscard]] const Queries& queries() const { return sample_->queries; }
   /// The positions of the sample in the group, ascending.
   [[nodiscard]] const std::vector<std::size_t>& positions() const { return sample_->positions; }
@@ -118,20 +85,19 @@ class TimedSolver {
   [[nodiscard]] std::optional<judge::Unasked> why_unasked(std::size_t i) const {
     return reply_.why_unasked(i);
   }
-  [[nodiscard]] const TimesPerQuery& times() const { return times_; }
-  /// Processor time of all repetitions.
-  [[nodiscard]] double seconds_spent() const { return seconds_spent_; }
+  /// Nanoseconds a query, one number for each repetition.
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
 
  private:
   /// Processor time in nanoseconds, the mean of this number of calls.
-  double time_calls(const solvers::Solver& solver, std::size_t calls);
+  double time_calls(std::size_t calls);
   /// Queries of the latest call that were asked, at least 1.
   [[nodiscard]] double asked() const;
-  /// The factor by which a sample may grow within the time allowed, at the pace of these queries.
-  double possible_growth(const SampleLimits& limits);
+  /// The factor by which a sample may grow within these seconds, at the pace of these queries.
+  double possible_growth(double seconds);
 
   const solvers::Solver* solver_;
-  Samples* samples_;
+  const data::QueryGroup* group_;
   Separation separation_;
   std::shared_ptr<const Sample> sample_ = std::make_shared<Sample>();
   std::vector<fast::Answer> answers_;
@@ -141,9 +107,7 @@ class TimedSolver {
   std::uint64_t unplaced_crashes_ = 0;
   /// Calls in a repetition; 0: not known yet.
   std::size_t calls_ = 0;
-  TimesPerQuery times_;
-  double latest_ = 0.0;  ///< nanoseconds of the latest call
-  double seconds_spent_ = 0.0;
+  std::vector<double> times_;
 };
 
 /// True if a solver with these terms takes such curves, in queries of whatever kind; no other is
@@ -161,11 +125,6 @@ template <class Work>
   for (std::size_t i = 0; i < calls; ++i) work();
   return (base::thread_nanoseconds() - start) / static_cast<double>(calls);
 }
-
-/// The order of measurements in a repetition: a rotation of 0, …, `items`−1, so that no item always
-/// runs behind the same other one.
-[[nodiscard]] std::vector<std::size_t> order_of_repetition(std::size_t items,
-                                                           std::size_t repetition);
 
 /// Nanoseconds between two readings of the clock that single queries are timed with, the median of
 /// many; they are subtracted from the times of queries.

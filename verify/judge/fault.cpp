@@ -16,33 +16,26 @@ namespace {
 /// The names of a fault.
 struct Words {
   std::string_view name;
-  char letter;
   std::string_view text;
 };
 
 constexpr std::array<Words, fault_count> words{{
-    {"false_negative", 'N', "false negative"},
-    {"false_positive", 'P', "false positive"},
-    {"late_toi", 'T', "late toi"},
-    {"early_toi_upper", 'T', "early toi_upper"},
-    {"crash", 'E', "error"},
-    {"exit", 'E', "error"},
-    {"exception", 'E', "error"},
-    {"no_verdict", 'E', "error"},
-    {"not_finite", 'E', "error"},
-    {"hang", 'H', "hang"},
-    {"undecided", 'U', "undecided"},
-    {"beyond_tolerance", 'B', "beyond tolerance"},
-    {"asymmetry", 'A', "asymmetry"},
+    {"false_negative", "false negative"},
+    {"false_positive", "false positive"},
+    {"late_toi", "late toi"},
+    {"early_toi_upper", "early toi_upper"},
+    {"crash", "error"},
+    {"exit", "error"},
+    {"exception", "error"},
+    {"no_verdict", "error"},
+    {"not_finite", "error"},
+    {"hang", "hang"},
+    {"undecided", "undecided"},
+    {"beyond_tolerance", "beyond tolerance"},
+    {"asymmetry", "asymmetry"},
 }};
 
 const Words& words_of(Fault fault) { return words.at(static_cast<std::size_t>(fault)); }
-
-std::optional<Fault> found_by(std::string_view Words::*word, std::string_view wanted) {
-  const auto* const found = std::ranges::find(words, wanted, word);
-  return found == words.end() ? std::nullopt
-                              : std::optional(static_cast<Fault>(found - words.begin()));
-}
 
 constexpr std::string_view status_prefix = "status ";
 constexpr std::string_view signal_prefix = "signal ";
@@ -82,13 +75,13 @@ int signal_from_text(std::string_view text) {
 
 std::string_view to_string(Fault fault) { return words_of(fault).name; }
 
-std::optional<Fault> fault_from_name(std::string_view name) { return found_by(&Words::name, name); }
+std::optional<Fault> fault_from_name(std::string_view name) {
+  const auto* const found = std::ranges::find(words, name, &Words::name);
+  return found == words.end() ? std::nullopt
+                              : std::optional(static_cast<Fault>(found - words.begin()));
+}
 
 std::string_view to_text(Fault fault) { return words_of(fault).text; }
-
-std::optional<Fault> fault_from_text(std::string_view text) { return found_by(&Words::text, text); }
-
-char letter_of(Fault fault, bool is_slight) { return is_slight ? 't' : words_of(fault).letter; }
 
 const Failure* failure_at(std::span<const QueryFailure> failures, std::size_t position) {
   const auto found = std::ranges::lower_bound(failures, position, {}, &QueryFailure::position);

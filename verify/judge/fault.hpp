@@ -66,13 +66,6 @@ inline constexpr std::span all_failures = std::span(all_faults).subspan<4, 7>();
 /// tolerance", "asymmetry", "hang", "undecided", and "error" for every error.
 [[nodiscard]] std::string_view to_text(Fault fault);
 
-/// The first fault of that text, if there is one.
-[[nodiscard]] std::optional<Fault> fault_from_text(std::string_view text);
-
-/// The letter, for maps: N, P, B, A, H or U, T for both times, t for one that is late slightly, E
-/// for every error.
-[[nodiscard]] char letter_of(Fault fault, bool is_slight = false);
-
 /// The reason why there is no answer to a query, in detail.
 struct Failure {
   /// \pre is_failure

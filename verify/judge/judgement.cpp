@@ -213,26 +213,6 @@ Judgement& Judgement::operator+=(const Judgement& next) {
   return *this;
 }
 
-std::optional<WorstFault> worst_of(const Judgement& judgement, fast::Promise promise) {
-  std::optional<WorstFault> worst;
-  const auto consider = [&](Fault fault, bool is_slight, std::uint64_t count) {
-    if (count == 0) return;
-    if (!worst ||
-        harm_of(fault, is_slight, promise) < harm_of(worst->fault, worst->is_slight, promise)) {
-      worst = WorstFault{.fault = fault, .is_slight = is_slight};
-    }
-  };
-  for (const Fault fault : all_faults) {
-    if (fault == Fault::hang || fault == Fault::undecided || fault == Fault::late_toi) continue;
-    if (is_error(fault) && fault != Fault::crash) continue;
-    consider(fault, false, judgement.total(fault));
-  }
-  const std::uint64_t late = judgement.count(Fault::late_toi);
-  consider(Fault::late_toi, false, late - judgement.slightly_late);
-  consider(Fault::late_toi, true, judgement.slightly_late);
-  return worst;
-}
-
 bool keeps(const Judgement& judgement, fast::Promise promise) {
   return std::ranges::none_of(all_faults, [&](Fault fault) {
     return judgement.total(fault) != 0 && breaks(fault, promise);

@@ -173,13 +173,6 @@ struct Judgement {
   [[nodiscard]] bool count_kept(Fault fault, bool is_slight);
 };
 
-/// The worst fault (harm_of) of a judgement, and whether it is a late time, and only slightly.
-struct WorstFault {
-  Fault fault = Fault::false_negative;  ///< a crash stands for all errors
-  bool is_slight = false;
-};
-[[nodiscard]] std::optional<WorstFault> worst_of(const Judgement& judgement, fast::Promise promise);
-
 /// True if no fault breaks the promise.
 [[nodiscard]] bool keeps(const Judgement& judgement, fast::Promise promise);
 

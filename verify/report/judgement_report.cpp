@@ -34,23 +34,6 @@ std::vector<std::size_t> by_harm(const std::vector<judge::WrongAnswer>& wrong,
 
 }  // namespace
 
-std::optional<Spread> spread_of(const judge::ToiErrors& errors) {
-  if (errors.count() == 0) return std::nullopt;
-  return Spread{.count = errors.count(), .median = errors.quantile(0.5), .max = errors.max()};
-}
-
-JudgedAnswers counts_of(const judge::Judgement& judgement) {
-  return {.collisions = judgement.collisions,
-          .false_positives = judgement.count(judge::Fault::false_positive),
-          .false_negatives = judgement.count(judge::Fault::false_negative),
-          .late_tois = judgement.count(judge::Fault::late_toi),
-          .early_upper_tois = judgement.count(judge::Fault::early_toi_upper),
-          .beyond_tolerance = judgement.count(judge::Fault::beyond_tolerance),
-          .errors = judgement.errors(),
-          .undecided = judgement.undecided(),
-          .toi_error = spread_of(judgement.toi_errors)};
-}
-
 std::vector<io::TextColumn> fault_columns() {
   return {{"false neg", 9},    {"false pos", 9}, {"late toi", 8},
           {"early upper", 11}, {"undecided", 9}, {"errors", 7}};

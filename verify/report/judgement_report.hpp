@@ -8,24 +8,16 @@
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "fast/method.hpp"
-#include "verify/data/query_group.hpp"
+#include "verify/data/query_source.hpp"
 #include "verify/io/text_table.hpp"
 #include "verify/judge/judgement.hpp"
-#include "verify/report/measurement.hpp"
 
 namespace touchstone::verify::report {
-
-/// The numbers that stand for the errors; nothing if there are none.
-[[nodiscard]] std::optional<Spread> spread_of(const judge::ToiErrors& errors);
-
-/// The counts of a judgement, without a time.
-[[nodiscard]] JudgedAnswers counts_of(const judge::Judgement& judgement);
 
 // ---- Text ---------------------------------------------------------------------------------------
 

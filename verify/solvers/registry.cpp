@@ -91,9 +91,7 @@ const fast::MethodInfo* find_info(std::string_view name) {
   return found == methods().end() ? nullptr : &(*found)->info();
 }
 
-bool is_own_name(std::string_view name) {
-  return find_info(name) != nullptr || name == "certified_queries" || name == "certified_pairs";
-}
+bool is_own_name(std::string_view name) { return find_info(name) != nullptr; }
 
 std::string_view to_string(fast::Promise promise) {
   switch (promise) {

@@ -269,54 +269,6 @@ class Recorded final : public Solver {
   const RecordedAnswers& answers_;
 };
 
-// ---- The certified solver by its own interfaces -------------------------------------------------
-
-class Collisions final : public Solver {
- public:
-  using Find = std::function<std::vector<fast::Collision>(const SolveRequest&,
-                                                          const fast::CertifiedOptions&)>;
-
-  Collisions(std::string_view name, const fast::Terms& terms, bool only_as_a_whole,
-             const fast::CertifiedOptions& options, Find find)
-      : Solver(fast::MethodInfo{.name = name, .promise = fast::Promise::exact, .terms = terms}),
-        only_as_a_whole_(only_as_a_whole),
-        options_(options),
-        find_(std::move(find)) {
-    options_.max_threads = 1;
-  }
-
-  [[nodiscard]] bool only_as_a_whole() const override { return only_as_a_whole_; }
-
-  /// Times the finding of collisions alone; writing the answers is not part of the interface. One
-  /// answer is written faster than the thread's clock is read.
-  [[nodiscard]] SolveReply answer(const SolveRequest& request,
-                                  std::span<fast::Answer> answers) const override {
-    fast::CertifiedOptions options = options_;
-    options.separation = request.separation;
-    std::vector<fast::Collision> collisions;
-    const auto find = [&] { collisions = find_(request, options); };
-    SolveReply reply;
-    if (answers.size() == 1) {
-      find();
-    } else {
-      reply.time = time_of(find);
-    }
-    std::ranges::fill(answers, fast::Answer{.verdict = fast::Verdict::no});
-    for (const auto& [candidate, result] : collisions) {
-      answers[candidate] = {.verdict = result.verdict,
-                            .toi_lower = result.toi_lower,
-                            .toi_upper = result.toi_upper,
-                            .tolerance = fast::Answer::none};
-    }
-    return reply;
-  }
-
- private:
-  bool only_as_a_whole_;
-  fast::CertifiedOptions options_;
-  Find find_;
-};
-
 }  // namespace
 
 Solver::Solver(const fast::MethodInfo& info) : name_(info.name), info_(info) { info_.name = name_; }
@@ -412,28 +364,6 @@ std::unique_ptr<Solver> solver_in_children(const fast::Method& method,
 std::unique_ptr<Solver> recorded_solver(std::string_view name, const RecordedAnswers& answers,
                                         const fast::Terms& terms) {
   return std::make_unique<Recorded>(name, answers, terms);
-}
-
-std::unique_ptr<Solver> certified_queries(const fast::CertifiedOptions& certified) {
-  return std::make_unique<Collisions>(
-      "certified_queries", fast::certified_info().terms, false, certified,
-      [](const SolveRequest& request, const fast::CertifiedOptions& options) {
-        return fast::collisions(request.queries, options);
-      });
-}
-
-std::unique_ptr<Solver> certified_pairs(const fast::MovingVertices& vertices,
-                                        const fast::Candidates& candidates,
-                                        const fast::CertifiedOptions& certified) {
-  const auto find = [&vertices, candidates](const SolveRequest& request,
-                                            const fast::CertifiedOptions& options) {
-    const Queries& queries = request.queries;
-    if (queries.kind != candidates.kind || queries.size() != candidates.pairs.size()) {
-      throw std::invalid_argument("certified_pairs: these are not the queries of its candidates");
-    }
-    return fast::collisions(vertices, candidates, options);
-  };
-  return std::make_unique<Collisions>("certified_pairs", fast::Terms{}, true, certified, find);
 }
 
 std::vector<StageCount> count_stages(const fast::MethodInfo& info,

@@ -1,9 +1,8 @@
 #pragma once
 
 /// \file
-/// A solver under test: a method in this process or in child processes, a file of its answers, or
-/// the certified solver through an interface of its own. Every job asks all of them in the same
-/// way.
+/// A solver under test: a method in this process or in child processes, or a file of its answers.
+/// Every job asks all of them in the same way.
 
 #include <atomic>
 #include <cstddef>
@@ -16,9 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fast/candidates.hpp"
 #include "fast/method.hpp"
-#include "touchstone/certified.hpp"
 #include "touchstone/query.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/judge/judge.hpp"
@@ -93,8 +90,6 @@ class Solver {
 
   /// True if its processor time is known.
   [[nodiscard]] virtual bool is_timed() const { return true; }
-  /// True if it has its queries from elsewhere, and can be asked only for all of them.
-  [[nodiscard]] virtual bool only_as_a_whole() const { return false; }
 
   /// Answers query i in answers[i], in this thread or in a child process that it waits for. Queries
   /// outside the terms of its promise are not asked, and the others in the form that the terms
@@ -146,17 +141,6 @@ class Solver {
 [[nodiscard]] std::unique_ptr<Solver> recorded_solver(std::string_view name,
                                                       const RecordedAnswers& answers,
                                                       const fast::Terms& terms = {});
-
-/// The certified solver by its own interface, fast::collisions, as `certified_queries`: on the
-/// array of queries, in one thread. Its separation is that of the request.
-[[nodiscard]] std::unique_ptr<Solver> certified_queries(const fast::CertifiedOptions& certified);
-
-/// The same from index pairs, as `certified_pairs`. The queries that it is asked must be those of
-/// all the candidates; it does not look at them. The mesh must live as long as the solver.
-/// Its solve() throws std::invalid_argument for another kind or number of queries.
-[[nodiscard]] std::unique_ptr<Solver> certified_pairs(const fast::MovingVertices& vertices,
-                                                      const fast::Candidates& candidates,
-                                                      const fast::CertifiedOptions& certified);
 
 /// The number of queries that a stage decided.
 struct StageCount {

@@ -6,7 +6,7 @@
 
 #include "verify/io/html.hpp"
 #include "verify/io/printable.hpp"
-#include "verify/report/report_page.hpp"
+#include "verify/report/bench_page.hpp"
 
 namespace touchstone::verify::view {
 

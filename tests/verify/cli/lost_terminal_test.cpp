@@ -62,8 +62,6 @@ TEST_F(TerminalTool, EveryCommandEndsAtAnInterrupt) {
       {"bench", "--count", "100000000"},
       {"fuzz", "--method", "certified", "--json", summary},
       {"certify", "--degree", "rational", "--count", "1000000", "--json", summary},
-      {"stability", "--json", summary},
-      {"report", "--out", out},
       {"derive", "--json", summary}};
   for (const std::vector<std::string>& words : runs) {
     EXPECT_EQ(run_interrupted(words).status, 130) << words[0] << " " << words.back();
@@ -236,7 +234,7 @@ TEST_F(TerminalTool, MessagesShowWhatTheyName) {
         {"certify", "--kind", "\x1b[2J\nx\u202e"},
         {"fuzz", "--queries", "1", "--method", "\x1b[2J\nx\u202e"},
         {"certify", "--plugin", path("\x1b[2J\nx\u202e.so")},
-        {"report", "--from", path("\x1b[2J\nx\u202e.json"), "--out", path("page.html")}}) {
+        {"bench", "--from", path("\x1b[2J\nx\u202e.json"), "--page", path("page.html")}}) {
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.status, 2) << words.front();
     EXPECT_TRUE(is_plain(outcome.err)) << outcome.err;

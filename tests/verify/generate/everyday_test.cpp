@@ -10,7 +10,6 @@
 #include "tests/support/trials.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/oracle.hpp"
-#include "verify/fuzz/plainness.hpp"
 
 namespace touchstone::verify::generate::everyday_test {
 namespace {
@@ -76,26 +75,6 @@ TEST(EverydayNearContact, MostlyDoesNotCollideByAUnit) {
   });
   EXPECT_GT(no_collisions, tests::trials(1000) / 5);
   EXPECT_LT(no_collisions, tests::trials(1000));
-}
-
-TEST(EverydayQuery, IsOfItsScene) {
-  Random random(2);
-  for (const Kind kind : both_kinds) {
-    for (int i = 0; i < tests::trials(100); ++i) {
-      const Query inside = everyday_query(
-          kind, {.digits = 4, .exponent = 2, .time = ContactMoment::between}, random);
-      const exact::Decision verdict = exact::decide(kind, inside);
-      ASSERT_TRUE(verdict.collides());
-      EXPECT_NEAR(verdict.toi->enclosure().lower, 0.5, 1e-9);
-      for (const double x : fuzz::magnitudes({Kind::vertex_face, inside})) {
-        EXPECT_GE(shortest_decimal(x).exponent, -2) << x;
-        EXPECT_LT(x, 100.0);
-      }
-      const Query far = everyday_query(
-          kind, {.digits = 4, .exponent = 2, .clearance = 8 * power_of_ten(4)}, random);
-      EXPECT_FALSE(exact::decide(kind, far).collides());
-    }
-  }
 }
 
 }  // namespace

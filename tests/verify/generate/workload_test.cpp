@@ -1,14 +1,10 @@
 #include "verify/generate/workload.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "touchstone/oracle.hpp"
@@ -42,31 +38,6 @@ TEST(Workload, PatchesHaveEnoughCandidatesOfWhichSomePerCentCollideWithAnySeed) 
 
 TEST(Workload, PatchesHaveCells) {
   EXPECT_THROW((void)moving_patches({.cells = 0}), std::invalid_argument);
-}
-
-TEST(Workload, EndContactsAreAtTheEnd) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    for (const double scale : {0.01, 1.0, 1000.0}) {
-      for (const bool two_decimals : {false, true}) {
-        const data::QueryGroup group =
-            end_contacts(kind, {.scale = scale, .two_decimals = two_decimals, .count = 50});
-        ASSERT_EQ(group.queries().size(), 50U);
-        double greatest = 0.0;
-        for (const Query& query : group.queries().straight()) {
-          const exact::Decision truth = exact::decide(kind, query);
-          ASSERT_TRUE(truth.collides());
-          for (const double x : query.coordinates) {
-            greatest = std::max(greatest, std::abs(x));
-            if (two_decimals) {
-              EXPECT_EQ(std::stod(fmt::format("{:.6g}", x)), x) << "a short decimal";
-            }
-          }
-        }
-        EXPECT_LE(greatest, scale);
-        EXPECT_GT(greatest, 0.9 * scale);
-      }
-    }
-  }
 }
 
 }  // namespace

@@ -10,12 +10,9 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -51,28 +48,17 @@ BenchOptions quick() {
   return options;
 }
 
-/// Methods and the solvers made of them.
-class Field {
- public:
-  void add(FunctionMethod::Function function, Promise promise, const std::string& name) {
-    add(std::make_unique<FunctionMethod>(std::move(function), promise, name));
-  }
-  void add(std::unique_ptr<fast::Method> method) {
-    methods_.push_back(std::move(method));
-    solvers_.push_back(solvers::solver_in_process(*methods_.back(), {}));
-  }
-  void add(std::unique_ptr<solvers::Solver> solver) { solvers_.push_back(std::move(solver)); }
+/// The row of a solver on a group.
+BenchRow row_of(const data::QueryGroup& group, const solvers::Solver& solver,
+                const BenchOptions& options, const Separation& separation = {}) {
+  return Bench(group, options).row(solver, {.separation = separation});
+}
 
-  [[nodiscard]] BenchResult run(const data::QueryGroup& group, const BenchOptions& options) const {
-    std::vector<const solvers::Solver*> solvers;
-    for (const auto& solver : solvers_) solvers.push_back(solver.get());
-    return bench(group, solvers, options);
-  }
-
- private:
-  std::vector<std::unique_ptr<fast::Method>> methods_;
-  std::vector<std::unique_ptr<solvers::Solver>> solvers_;
-};
+BenchRow row_of(const data::QueryGroup& group, FunctionMethod::Function function, Promise promise,
+                const BenchOptions& options) {
+  const FunctionMethod method(std::move(function), promise, "some");
+  return row_of(group, *solvers::solver_in_process(method, {}), options);
+}
 
 Answer always_yes(Kind, const Query&) { return {.verdict = Verdict::yes}; }
 
@@ -89,8 +75,7 @@ std::uint64_t all_faults(const judge::Judgement& judgement) {
 
 // ---- Error --------------------------------------------------------------------------------------
 
-/// On lines, and on curves, of which methods of lines are not asked.
-TEST(Bench, CountsWhatEachSolverGetsWrong) {
+TEST(Bench, CountsWhatASolverGetsWrong) {
   using enum judge::Fault;
   struct Row {
     Answer (*function)(Kind, const Query&);
@@ -99,63 +84,48 @@ TEST(Bench, CountsWhatEachSolverGetsWrong) {
     std::size_t count = 0;
     bool broke_promise = false;
   };
-  const std::vector<Row> rows{{tests::true_answer, Promise::exact, {}},
-                              {always_no, Promise::conservative, false_negative, 20, true},
-                              {always_yes, Promise::conservative, false_positive, 180},
-                              {always_yes, Promise::exact, false_positive, 180, true},
-                              {late, Promise::conservative, late_toi, 20, true},
-                              {always_no, Promise::none, false_negative, 20}};
-  Field field;
-  for (const Row& row : rows) field.add(row.function, row.promise, "some");
-  const BenchResult result = field.run(falling_vertices(200), quick());
-  EXPECT_EQ(result.name, "falling");
-  EXPECT_EQ(result.queries, 200U);
-  EXPECT_EQ(result.judged, 200U);
-  EXPECT_EQ(result.collisions, 20U);
-  EXPECT_FALSE(result.interrupted);
-  ASSERT_EQ(result.solvers.size(), rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    SCOPED_TRACE(i);
-    const SolverResult& solver = result.solvers[i];
-    EXPECT_EQ(solver.queries, 200U);
-    EXPECT_EQ(solver.judgement.queries, 200U);
-    EXPECT_EQ(all_faults(solver.judgement), rows[i].count);
-    if (rows[i].fault) {
-      EXPECT_EQ(solver.judgement.count(*rows[i].fault), rows[i].count);
+  const data::QueryGroup group = falling_vertices(200);
+  for (const Row& row : {Row{tests::true_answer, Promise::exact, {}},
+                         {always_no, Promise::conservative, false_negative, 20, true},
+                         {always_yes, Promise::conservative, false_positive, 180},
+                         {always_yes, Promise::exact, false_positive, 180, true},
+                         {late, Promise::conservative, late_toi, 20, true},
+                         {always_no, Promise::none, false_negative, 20}}) {
+    const BenchRow result = row_of(group, row.function, row.promise, quick());
+    EXPECT_EQ(result.source, "falling");
+    EXPECT_EQ(result.method, "some");
+    EXPECT_EQ(result.queries, 200U);
+    EXPECT_EQ(result.timed, 200U);
+    EXPECT_EQ(result.judgement.queries, 200U);
+    EXPECT_EQ(result.judgement.collisions, 20U);
+    EXPECT_FALSE(result.interrupted);
+    EXPECT_EQ(all_faults(result.judgement), row.count);
+    if (row.fault) {
+      EXPECT_EQ(result.judgement.count(*row.fault), row.count);
     }
-    EXPECT_EQ(broke_promise(solver), rows[i].broke_promise);
+    EXPECT_EQ(broke_promise(result), row.broke_promise);
   }
-  EXPECT_EQ(result.solvers[0].judgement.toi_errors.count(), 20U);
-  EXPECT_LT(result.solvers[0].judgement.toi_errors.max(), 1e-15);
-  EXPECT_TRUE(any_broke_promise({&result, 1}));
-
-  Field on_curves;
-  on_curves.add(fast::certified_method());
-  on_curves.add(solvers::certified_queries({}));
-  on_curves.add(always_no, Promise::conservative, "lines alone");
-  const BenchResult curves = on_curves.run(tests::curved_group(Kind::vertex_face, 30), quick());
-  EXPECT_GT(curves.collisions, 0U);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const SolverResult& right = curves.solvers.at(i);
-    EXPECT_EQ(right.judgement.toi_errors.count(), curves.collisions) << right.name;
-    EXPECT_EQ(all_faults(right.judgement), 0U) << right.name;
-    EXPECT_GT(right.times.median(), 0.0) << right.name;
-  }
-  EXPECT_EQ(curves.solvers.at(2).judgement.outside, 30U);
-  EXPECT_FALSE(broke_promise(curves.solvers.at(2)));
 }
 
-/// A sample of the queries, which is that of the calls too, and all that any solver calls a
-/// collision, up to the limit.
-TEST(Bench, JudgesASampleAndWhatAnySolverCallsACollision) {
-  const auto judged = [](FunctionMethod::Function function, std::size_t most) {
-    BenchOptions options = quick();
-    options.judge = most;
-    Field field;
-    field.add(always_no, Promise::conservative, "no");
-    field.add(std::move(function), Promise::exact, "other");
-    return field.run(falling_vertices(1000), options);
-  };
+/// Methods of lines are not asked about curves.
+TEST(Bench, TakesCurvesAndSeparations) {
+  const data::QueryGroup curves = tests::curved_group(Kind::vertex_face, 30);
+  const auto certified = fast::certified_method();
+  const auto solver = solvers::solver_in_process(*certified, {});
+  const BenchRow right = row_of(curves, *solver, quick());
+  EXPECT_GT(right.judgement.collisions, 0U);
+  EXPECT_EQ(right.judgement.toi_errors.count(), right.judgement.collisions);
+  EXPECT_EQ(all_faults(right.judgement), 0U);
+  const BenchRow none = row_of(curves, always_no, Promise::conservative, quick());
+  EXPECT_EQ(none.judgement.outside, 30U);
+  EXPECT_FALSE(broke_promise(none));
+  // Those that fall to 1/2 come as near as that.
+  const Separation half{.distance = 0.5, .norm = Norm::l2};
+  EXPECT_EQ(row_of(falling_vertices(20), *solver, quick(), half).judgement.collisions, 20U);
+}
+
+/// An even part of the sample, and what the solver or the certified solver calls a collision.
+TEST(Bench, JudgesAPartAndWhatIsCalledACollision) {
   const auto colliding = [](std::size_t most) {
     const auto sample = spread_sample(1000, most);
     return static_cast<std::size_t>(std::ranges::count_if(sample, collides));
@@ -164,21 +134,34 @@ TEST(Bench, JudgesASampleAndWhatAnySolverCallsACollision) {
     Answer (*function)(Kind, const Query&);
     std::size_t most, count, collisions;
   };
+  const data::QueryGroup group = falling_vertices(1000);
   for (const auto& [function, most, count, collisions] :
-       {Row{always_no, 50, 50, colliding(50)},
+       {Row{always_no, 150, 250 - colliding(150), 100},
         {tests::true_answer, 150, 250 - colliding(150), 100},
         {always_yes, 50, 50, colliding(50)}}) {
-    const BenchResult result = judged(function, most);
-    ASSERT_GT(collisions, 0U);
-    EXPECT_EQ(result.judged, count);
-    EXPECT_EQ(result.collisions, collisions);
-    const judge::Judgement &no = result.solvers[0].judgement, &other = result.solvers[1].judgement;
-    EXPECT_EQ(no.queries, count);
-    EXPECT_EQ(no.count(judge::Fault::false_negative), collisions);
-    const bool says_yes = function == always_yes;
-    EXPECT_EQ(other.count(judge::Fault::false_positive), says_yes ? count - collisions : 0U);
-    EXPECT_EQ(all_faults(other) == 0, function == tests::true_answer);
+    BenchOptions options = quick();
+    options.judge = most;
+    const judge::Judgement judged = row_of(group, function, Promise::exact, options).judgement;
+    EXPECT_EQ(judged.queries, count);
+    EXPECT_EQ(judged.collisions, collisions);
+    const bool is_no = function == always_no, is_yes = function == always_yes;
+    EXPECT_EQ(judged.count(judge::Fault::false_negative), is_no ? collisions : 0U);
+    EXPECT_EQ(judged.count(judge::Fault::false_positive), is_yes ? count - collisions : 0U);
   }
+}
+
+TEST(Bench, CountsQueriesThatReachTheLimitOfChecks) {
+  const FunctionMethod method(
+      [](Kind, const Query& query) {
+        const bool is_hard = query.at(1, 0, 2) < 0.0;
+        return Answer{.verdict = Verdict::yes, .checks = is_hard ? 10U : 9U};
+      },
+      Promise::none, "some");
+  const auto solver = solvers::solver_in_process(method, {});
+  const data::QueryGroup group = falling_vertices(100);
+  const BenchOptions options = quick();
+  EXPECT_EQ(Bench(group, options).row(*solver, {.max_checks = 10}).at_limit, 10U);
+  EXPECT_EQ(Bench(group, options).row(*solver, {.max_checks = 0}).at_limit, 0U);
 }
 
 // ---- Speed --------------------------------------------------------------------------------------
@@ -186,15 +169,12 @@ TEST(Bench, JudgesASampleAndWhatAnySolverCallsACollision) {
 /// A solver that spends time on each query, records every call, and answers yes.
 class Burner final : public solvers::Solver {
  public:
-  using Log = std::vector<std::pair<std::string, std::size_t>>;
+  explicit Burner(double nanoseconds)
+      : solvers::Solver(fast::MethodInfo{.name = "burner"}), nanoseconds_(nanoseconds) {}
 
-  Burner(std::string_view name, double nanoseconds, Log& log)
-      : solvers::Solver(fast::MethodInfo{.name = name}), nanoseconds_(nanoseconds), log_(log) {}
-
-  [[nodiscard]] bool only_as_a_whole() const override { return whole; }
   [[nodiscard]] solvers::SolveReply answer(const solvers::SolveRequest& request,
                                            std::span<Answer> answers) const override {
-    log_.emplace_back(name(), request.queries.size());
+    log.push_back(request.queries.size());
     const std::span<const Query> lines = request.queries.straight();
     latest.assign(lines.begin(), lines.end());
     std::ranges::fill(answers, Answer{.verdict = Verdict::yes});
@@ -203,76 +183,53 @@ class Burner final : public solvers::Solver {
     return {};
   }
 
-  bool whole = false;
+  mutable std::vector<std::size_t> log;
   mutable std::vector<Query> latest;
   std::function<void()> on_solve;
 
  private:
   double nanoseconds_;
-  Log& log_;
 };
 
-TEST(Bench, InterleavesTheSolvers) {
-  Burner::Log log;
-  Field field;
-  // The time makes one call a repetition.
-  field.add(std::make_unique<Burner>("a", 1e6, log));
-  field.add(std::make_unique<Burner>("b", 1e6, log));
+TEST(Bench, TimesTheSampleBesideTheCertifiedSolverThenSingleQueries) {
+  const Burner burner(1e6);
   BenchOptions options = quick();
   options.repetitions = 3;
   options.singles = 2;
   options.seconds = 1e-3;
-  const BenchResult result = field.run(falling_vertices(4), options);
-  const Burner::Log expected{{"a", 4}, {"b", 4},  // a first look
-                             {"a", 4}, {"b", 4},  // memory, a, b
-                             {"a", 4}, {"b", 4},  // a, b, memory
-                             {"b", 4}, {"a", 4},  // b, memory, a
-                             {"a", 1}, {"a", 1}, {"b", 1}, {"b", 1}};
-  EXPECT_EQ(log, expected);
-  EXPECT_EQ(result.memory_pass.repetitions.size(), 3U);
-  EXPECT_EQ(result.solvers[1].times.repetitions.size(), 3U);
+  const BenchRow row = row_of(falling_vertices(4), burner, options);
+  // A first look, three repetitions, two sweeps at most.
+  ASSERT_GE(burner.log.size(), 6U);
+  EXPECT_EQ(std::vector(burner.log.begin(), burner.log.begin() + 4),
+            std::vector<std::size_t>(4, 4));
+  EXPECT_EQ(burner.log.back(), 1U);
+  EXPECT_GE(row.nanoseconds, 0.9e6);
+  EXPECT_LT(row.certified_nanoseconds, row.nanoseconds);
+  EXPECT_GT(row.certified_nanoseconds, 0.0);
+  EXPECT_GT(row.pass_nanoseconds, 0.0);
+  ASSERT_TRUE(row.singles);
+  EXPECT_GE(row.singles->p50, 0.9e6);
 }
 
 TEST(Bench, SlowSolversAreTimedOnASpreadSample) {
-  Burner::Log log;
-  auto burner = std::make_unique<Burner>("burner", 50'000.0, log);
-  const Burner& slow = *burner;
-  Field field;
-  field.add(std::move(burner));
-  field.add(always_no, Promise::none, "fast");
+  const Burner slow(50'000.0);
   BenchOptions options = quick();
   options.seconds = 0.02;
   options.singles = 0;
   const data::QueryGroup group = falling_vertices(20'000);
-  const BenchResult result = field.run(group, options);
-  const std::size_t timed = result.solvers[0].queries;
-  EXPECT_GE(timed, 16U);
-  EXPECT_LT(timed, 800U) << "more would take two hundredths of a second";
-  EXPECT_EQ(timed & (timed - 1), 0U) << "a power of two";
-  EXPECT_EQ(result.solvers[1].queries, 20'000U);
-  ASSERT_EQ(slow.latest.size(), timed);
-  const auto sample = spread_sample(group.queries().size(), timed);
-  for (std::size_t i = 0; i < timed; ++i) {
+  const BenchRow row = row_of(group, slow, options);
+  EXPECT_GE(row.timed, 16U);
+  EXPECT_LT(row.timed, 800U) << "more would take two hundredths of a second";
+  EXPECT_EQ(row.timed & (row.timed - 1), 0U) << "a power of two";
+  ASSERT_EQ(slow.latest.size(), row.timed);
+  const auto sample = spread_sample(group.queries().size(), row.timed);
+  for (std::size_t i = 0; i < row.timed; ++i) {
     ASSERT_EQ(slow.latest[i], group.queries().straight()[sample[i]]) << i;
   }
   const auto colliding = static_cast<std::uint64_t>(std::ranges::count_if(sample, collides));
-  EXPECT_EQ(result.solvers[0].judgement.queries, timed) << "it answered no others";
-  EXPECT_EQ(result.solvers[0].judgement.count(judge::Fault::false_positive), timed - colliding);
-  EXPECT_FALSE(result.solvers[0].singles);
-}
-
-TEST(Bench, WhatCanOnlyBeAskedAsAWholeIs) {
-  Burner::Log log;
-  auto burner = std::make_unique<Burner>("whole", 10'000.0, log);
-  burner->whole = true;
-  Field field;
-  field.add(std::move(burner));
-  BenchOptions options = quick();
-  options.seconds = 1e-3;
-  const BenchResult result = field.run(falling_vertices(1000), options);
-  EXPECT_EQ(log, (Burner::Log{{"whole", 1000}, {"whole", 1000}, {"whole", 1000}}));
-  EXPECT_EQ(result.solvers[0].queries, 1000U);
-  EXPECT_FALSE(result.solvers[0].singles);
+  EXPECT_EQ(row.judgement.queries, row.timed) << "it answered no others";
+  EXPECT_EQ(row.judgement.count(judge::Fault::false_positive), row.timed - colliding);
+  EXPECT_FALSE(row.singles);
 }
 
 // ---- The pass over the memory --------------------------------------------------------------------
@@ -304,34 +261,31 @@ TEST(MemoryPass, FillsUpTheLastWord) {
 
 TEST(Bench, AStopKeepsWhatIsDone) {
   std::atomic<bool> stop = false;
-  Burner::Log log;
-  auto burner = std::make_unique<Burner>("a", 1e6, log);
-  burner->on_solve = [&] { stop = log.size() == 3; };
-  Field field;
-  field.add(std::move(burner));
+  Burner burner(1e6);
+  burner.on_solve = [&] { stop = burner.log.size() == 3; };
   BenchOptions options = quick();
   options.repetitions = 10;
   options.stop = &stop;
-  const BenchResult result = field.run(falling_vertices(4), options);
-  EXPECT_TRUE(result.interrupted);
-  EXPECT_EQ(log.size(), 3U) << "a first look and two repetitions";
-  EXPECT_EQ(result.solvers[0].times.repetitions.size(), 2U);
-  EXPECT_EQ(result.judged, 0U);
-  EXPECT_FALSE(result.solvers[0].singles);
+  const BenchRow row = row_of(falling_vertices(4), burner, options);
+  EXPECT_TRUE(row.interrupted);
+  EXPECT_EQ(burner.log.size(), 3U) << "a first look and two repetitions";
+  EXPECT_GT(row.nanoseconds, 0.0);
+  EXPECT_EQ(row.judgement.queries, 0U);
+  EXPECT_FALSE(row.singles);
 }
 
 TEST(Bench, RefusesWhatMakesNoSense) {
-  Field field;
-  field.add(always_yes, Promise::none, "yes");
+  const data::QueryGroup group = falling_vertices(4), empty = falling_vertices(0);
   BenchOptions options = quick();
   options.repetitions = 0;
-  EXPECT_THROW((void)field.run(falling_vertices(4), options), std::invalid_argument);
-  options = quick();
+  EXPECT_THROW(Bench(group, options), std::invalid_argument);
   for (const double seconds : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    options = quick();
     options.seconds = seconds;
-    EXPECT_THROW((void)field.run(falling_vertices(4), options), std::invalid_argument);
+    EXPECT_THROW(Bench(group, options), std::invalid_argument);
   }
-  EXPECT_THROW((void)field.run(falling_vertices(0), quick()), std::invalid_argument);
+  options = quick();
+  EXPECT_THROW(Bench(empty, options), std::invalid_argument);
 }
 
 }  // namespace

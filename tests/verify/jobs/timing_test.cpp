@@ -75,34 +75,28 @@ TEST(Timing, ShortWorkIsDoneSeveralTimes) {
   EXPECT_EQ(calls, 7);
 }
 
-TEST(TimedSolver, ItsSampleGrowsAsLongAsItAndItsCompanionAreFast) {
+TEST(TimedSolver, ItsSampleGrowsAsLongAsItIsFast) {
   const data::QueryGroup group = tests::falling_group(1000);
-  Samples samples(group);
   const FunctionMethod fast_one(tests::always_no), slow_one(tests::slow_no);
   const auto quick = solvers::solver_in_process(fast_one, {}),
              slow = solvers::solver_in_process(slow_one, {});
-  const auto size_with = [&](const solvers::Solver& solver, const SampleLimits& limits) {
-    TimedSolver timed(solver, samples, {});
-    timed.choose_sample(limits);
+  const auto size_with = [&](const solvers::Solver& solver, double seconds,
+                             const std::atomic<bool>* stop = nullptr) {
+    TimedSolver timed(solver, group, {});
+    timed.choose_sample(seconds, stop);
     return timed.queries().size();
   };
-  EXPECT_EQ(size_with(*quick, {.most = 1000, .seconds = 10.0}), 1000U);
-  EXPECT_EQ(size_with(*quick, {.most = 77, .seconds = 10.0}), 77U);
-  for (const SampleLimits& limits :
-       {SampleLimits{.most = 1000, .seconds = 0.05},
-        SampleLimits{.most = 1000, .seconds = 0.05, .companion = slow.get()}}) {
-    const std::size_t size = size_with(limits.companion == nullptr ? *slow : *quick, limits);
-    EXPECT_GE(size, 16U);
-    EXPECT_LE(size, 64U) << "a millisecond each";
-  }
+  EXPECT_EQ(size_with(*quick, 10.0), 1000U);
+  const std::size_t size = size_with(*slow, 0.05);
+  EXPECT_GE(size, 16U);
+  EXPECT_LE(size, 64U) << "a millisecond each";
   const std::atomic<bool> stop = true;
-  EXPECT_EQ(size_with(*quick, {.most = 1000, .seconds = 10.0, .stop = &stop}), 16U);
+  EXPECT_EQ(size_with(*quick, 10.0, &stop), 16U);
 }
 
-TEST(Samples, OfCurvesAreCopiedWhole) {
+TEST(Sample, OfCurvesIsCopiedWhole) {
   const data::QueryGroup group = tests::curved_group(Kind::edge_edge, 40);
-  Samples samples(group);
-  const auto some = samples.of(16), all = samples.of(100);
+  const auto some = sample_of(group, 16), all = sample_of(group, 100);
   EXPECT_EQ(QueryShape(some->queries), (QueryShape{.kind = Kind::edge_edge, .degree = 2}));
   ASSERT_EQ(some->queries.size(), 16U);
   for (std::size_t i = 0; i < 16; ++i) {
@@ -124,11 +118,10 @@ TEST(TimedSolver, TakesCurvesOrLinesOfWhateverKind) {
 
 TEST(TimedSolver, TimesQueriesAlone) {
   const data::QueryGroup group = tests::falling_group(40);
-  Samples samples(group);
   const FunctionMethod method(tests::slow_no);
   const auto solver = solvers::solver_in_process(method, {});
-  TimedSolver timed(*solver, samples, {});
-  timed.take(20);
+  TimedSolver timed(*solver, group, {});
+  timed.take(sample_of(group, 20));
   const auto times = timed.time_singles(10, 1e-3, nullptr);
   ASSERT_TRUE(times);
   EXPECT_EQ(times->size(), 10U);

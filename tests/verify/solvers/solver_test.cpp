@@ -13,11 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "fast/candidates.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
-#include "verify/generate/workload.hpp"
-#include "verify/mesh/moving_mesh.hpp"
 #include "verify/solvers/hang_limits.hpp"
 
 // A separate program, because it makes processes, which copy no threads.
@@ -231,7 +228,7 @@ TEST(Solver, ALostQueryIsThatOfItsShapeAndSeparation) {
   }
 }
 
-// ---- Stages, and the certified solver by its own interfaces -------------------------------------
+// ---- Stages -------------------------------------------------------------------------------------
 
 TEST(Solver, StagesAreCountedInTheirOrder) {
   const fast::MethodInfo& certified = fast::certified_info();
@@ -251,36 +248,6 @@ TEST(Solver, StagesAreCountedInTheirOrder) {
   EXPECT_EQ(count_stages(certified, answers), expected);
   EXPECT_EQ(certified.promise, Promise::exact);
   EXPECT_TRUE(count_stages({.name = "other"}, answers).empty());
-}
-
-TEST(Solver, PairsAreAnsweredAsTheirQueriesAre) {
-  const mesh::MovingMesh mesh = generate::moving_patches({.seed = 3, .cells = 6});
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const auto pairs = mesh::find_candidates(mesh, kind);
-    const fast::Candidates candidates = mesh::candidates_of(mesh, kind, pairs);
-    const auto queries = mesh::queries_of(mesh, candidates);
-    const auto with_queries = certified_queries({});
-    const auto with_pairs = certified_pairs(mesh.vertices, candidates, {});
-    EXPECT_EQ(with_queries->name(), "certified_queries");
-    EXPECT_EQ(with_pairs->name(), "certified_pairs");
-    EXPECT_FALSE(with_queries->only_as_a_whole());
-    EXPECT_TRUE(with_pairs->only_as_a_whole());
-    std::vector<Answer> expected(queries.size()), answers(queries.size());
-    const SolveRequest request{.queries = {kind, queries}};
-    EXPECT_TRUE(with_queries->solve(request, expected).time.has_value());
-    EXPECT_TRUE(with_pairs->solve(request, answers).time.has_value());
-    std::size_t collisions = 0;
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      ASSERT_EQ(answers[i].verdict, expected[i].verdict) << i;
-      ASSERT_EQ(answers[i].verdict, tests::true_answer(kind, queries[i]).verdict) << i;
-      collisions += answers[i].verdict == Verdict::yes ? 1U : 0U;
-    }
-    EXPECT_GT(collisions, 0U);
-    EXPECT_LT(collisions, queries.size());
-    EXPECT_THROW(static_cast<void>(with_pairs->solve({.queries = request.queries.part(0, 1)},
-                                                     std::span(answers).first(1))),
-                 std::invalid_argument);
-  }
 }
 
 }  // namespace
