@@ -316,24 +316,24 @@ class StreamRun {
   }
 
   [[nodiscard]] nlohmann::json to_json() const {
-    nlohmann::json json;
+    nlohmann::json document;
     if (judges()) {
-      json = report::to_json(results_);
+      document = report::to_json(results_);
     } else {
-      json = proof_ ? jobs::to_json(sum_.proofs) : report::answers_to_json(sum_.methods.front());
+      document = proof_ ? jobs::to_json(sum_.proofs) : report::answers_to_json(sum_.methods.front());
       if (proof_) {
-        json["file_bytes"] = proof_.bytes();
-        json["oracle_us_per_query"] = sum_.microseconds_per_query();
+        document["file_bytes"] = proof_.bytes();
+        document["oracle_us_per_query"] = sum_.microseconds_per_query();
       }
-      json["skipped"] = sum_.skipped;
-      json["rounded"] = sum_.rounded;
-      json["reading_errors"] = sum_.errors;
+      document["skipped"] = sum_.skipped;
+      document["rounded"] = sum_.rounded;
+      document["reading_errors"] = sum_.errors;
       if (const auto separation = judge::common_separation(separations_)) {
-        json["separation"] = judge::to_json(*separation);
+        document["separation"] = judge::to_json(*separation);
       }
     }
-    json["interrupted"] = sum_.interrupted;
-    return json;
+    document["interrupted"] = sum_.interrupted;
+    return document;
   }
 
   // ---- The summary
