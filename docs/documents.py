@@ -82,7 +82,7 @@ COMMANDS = {
     "steps": [f"bench --step simulation/{step}/frames/*.ply --method certified --method tight_inclusion --judge 0 "
               f"--repetitions 7{separation}" for step, separations in STEPS.items() for separation in separations],
     "point_of_use": [f"bench --step simulation/{step}/frames/*.ply --method certified "
-                     f"{' '.join(f'--plugin {ADAPTERS}/{name}.so' for name in BY_THE_CALL)} --judge 0 --repetitions 7"
+                     f"{' '.join(f'--plugin {ADAPTERS}/{name}.so' for name in BY_THE_CALL)} --judge 0 --singles 20000 --repetitions 7"
                      for step in STEPS],
     "bounds": ["derive"],
     "certificates": [f"prove {data} --threads 1".replace("  ", " ") for data in DATA],

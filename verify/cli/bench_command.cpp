@@ -420,6 +420,7 @@ void add_bench_options(CLI::App& command, Arguments& arguments) {
   add_option(command, "--kernel", arguments.kernel);
   add_option(command, "--repetitions", arguments.bench.repetitions);
   add_option(command, "--seconds", arguments.bench.seconds);
+  add_option(command, "--singles", arguments.bench.singles);
   add_option(command, "--judge", arguments.bench.judge);
   command.option_defaults()->group("Output");
   add_option(command, "--json", arguments.json_file);

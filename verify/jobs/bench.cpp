@@ -42,7 +42,7 @@ class Measuring {
     describe();
     if (!stopped()) judge();
     tell(0.9);
-    if (!stopped()) row_.singles = singles();
+    if (options_.singles != 0 && !stopped()) row_.singles = singles();
     tell(1.0);
     row_.interrupted = stopped();
     return row_;

@@ -7,7 +7,7 @@
 /// queries is timed on a sample. Each repetition times the solver, the certified solver on the same
 /// sample, and a pass that only reads the queries of the group: the physical limit. The three take
 /// turns, so that rows measured at different times can be compared. The median of the repetitions
-/// counts. Afterwards single queries are timed.
+/// counts. Afterwards single queries are timed, if asked for.
 ///
 /// **Error.** Queries are decided by the oracle and the answers to them judged. In large samples
 /// the oracle decides an evenly spread part, and the queries that the solver or the certified
@@ -41,7 +41,7 @@ struct BenchOptions {
   /// ones that are called a collision; 0: none.
   std::size_t judge = 200'000;
   /// The greatest number of single queries that are timed; 0: none.
-  std::size_t singles = 20'000;
+  std::size_t singles = 0;
   /// Cores to use for the oracle; 0: all of them. Solvers run on one.
   unsigned threads = 0;
   /// Called now and then with the fraction of a row's work that is done, from this thread.
