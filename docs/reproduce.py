@@ -47,7 +47,7 @@ def main():
     shutil.copy(here / "README.md", options.out)
     names = ["certify"] if options.built_in else ["certify", "results", "separations", "filters"]
     if options.built_in:
-        documents.COMMANDS["certify"] = ["certify"]
+        documents.COMMANDS["certify"], options.data = ["certify"], here
     different = 0
     with tempfile.TemporaryDirectory() as folder:
         for name in names:
