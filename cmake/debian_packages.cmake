@@ -27,12 +27,12 @@ endif()
 touchstone_debian_package(libtouchstone-dev libdevel
   "Certified continuous collision detection: libraries in C++ and C"
   DEPENDS "libeigen3-dev (>= 3.4)${tbb}"
-  RECOMMENDS "libgmp-dev, libmpfr-dev, libfmt-dev (>= 9)")
+  RECOMMENDS "libgmp-dev, libmpfr-dev, libfmt-dev (>= 9), gappa")
 if(TOUCHSTONE_BUILD_EXACT)
   touchstone_debian_package(touchstone-check math "Checker of the certificates of continuous collision detection")
 endif()
 if(TOUCHSTONE_BUILD_TOOL)
   touchstone_debian_package(touchstone math "Tests solvers of continuous collision detection against exact ground truth"
-    RECOMMENDS "touchstone-check, gappa")
+    RECOMMENDS "touchstone-check")
 endif()
 include(CPack)

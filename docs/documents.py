@@ -211,8 +211,9 @@ def measure_one(name, command, options, folder):
     words += ["--json", out] + (["--prove", proofs] if name == "certificates" else [])
     words += ["--table"] if command == "certify" else []
     # The exit status of certify is 1 if a method is wrong.
-    printed = run([options.tool, *words], (0, 1) if name == "certify" else (0,), cwd=options.data)
-    result = {"command": f"touchstone {command}", "result": reduced(json.loads(out.read_text()))}
+    program = [options.tool, *words] if command != "derive" else [options.tool.with_name("touchstone-derive"), *words[1:]]
+    printed = run(program, (0, 1) if name == "certify" else (0,), cwd=options.data)
+    result = {"command": f"touchstone {command}".replace(" derive", "-derive"), "result": reduced(json.loads(out.read_text()))}
     if command == "certify":
         result["printed"] = printed.splitlines()
     if name == "certificates":

@@ -12,7 +12,9 @@ mkdir -p "$folder"
 if [ "$(id -u)" = 0 ]; then export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; fi
 for _ in 1 2 3; do
   mpirun --oversubscribe -n "$parts" bash -c \
-    'result=$0/$OMPI_COMM_WORLD_RANK.json; [ -e "$result" ] || "$@" --json "$result"; [ $? -le 1 ]' \
-    "$folder" "$@" --threads 1 --shard auto >"$folder.log" 2>&1 && break
+    'result=$0/$OMPI_COMM_WORLD_RANK.json
+     [ -e "$result" ] || "$@" --shard "$OMPI_COMM_WORLD_RANK/$OMPI_COMM_WORLD_SIZE" --json "$result"
+     [ $? -le 1 ]' \
+    "$folder" "$@" --threads 1 >"$folder.log" 2>&1 && break
 done
 exec "$1" merge "$folder"/*.json --json "$folder.json"

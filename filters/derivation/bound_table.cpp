@@ -71,10 +71,6 @@ class Work {
   void take_tasks() {
     for (std::size_t task = next_++; task < tasks_.size(); task = next_++) {
       try {
-        if (options_.stop()) {
-          result_stopped();
-          return;
-        }
         finish(tasks_[task]);
       } catch (...) {
         const std::lock_guard lock(mutex_);
@@ -82,11 +78,6 @@ class Work {
         next_ = tasks_.size();
       }
     }
-  }
-
-  void result_stopped() {
-    const std::lock_guard lock(mutex_);
-    result_.stopped = true;
   }
 
   void finish(const Task& task) {
@@ -105,7 +96,6 @@ class Work {
     }
     const std::lock_guard lock(mutex_);
     result_.gappa_missing |= missing;
-    options_.progress(static_cast<double>(++done_) / static_cast<double>(tasks_.size()));
   }
 
   const DeriveOptions& options_;
@@ -113,7 +103,6 @@ class Work {
   const std::vector<Task>& tasks_;
   std::atomic<std::size_t> next_ = 0;
   std::mutex mutex_;
-  std::size_t done_ = 0;
   std::exception_ptr failure_;
 };
 

@@ -331,7 +331,6 @@ class BenchRun {
           {.title = "reading " + name,
            .use =
                [&](data::QuerySource& source, const Progress& progress) {
-                 if (is_element(source.kind())) return fail(not_measured(source));
                  if (source.kind() != kind) return;
                  require_one_separation(source, about);
                  group_of(groups, name, source.shape()).read(source, progress, [this] {
@@ -355,10 +354,6 @@ class BenchRun {
                                  ", the files before it for " + judge::to_text(*so_far));
     }
     so_far = asked;
-  }
-
-  static std::string not_measured(const data::QuerySource& source) {
-    return source.name() + ": " + contact_alone("bench", source.kind()) + ": name other files";
   }
 
   // ---- The end ----------------------------------------------------------------------------------
@@ -402,34 +397,32 @@ class BenchRun {
   std::uint64_t skipped_ = 0;
 };
 
-void add_query_options(CLI::App& command, Arguments& arguments) {
+void add_query_options(Command& command, Arguments& arguments) {
   add_path_options(command, arguments.sources);
   add_option(command, "--count", arguments.sources.count);
   add_option(command, "--degree", arguments.sources.degrees);
-  add_option(command, "--level", arguments.levels)->excludes(command.get_option("PATH"));
-  add_option(command, "--family", arguments.families)->excludes(command.get_option("PATH"));
-  add_option(command, "--step", arguments.step)->excludes(command.get_option("PATH"));
+  add_option(command, "--level", arguments.levels);
+  add_option(command, "--family", arguments.families);
+  add_option(command, "--step", arguments.step);
   add_option(command, "--min-separation", arguments.distances);
-  add_option(command, "--norm", [&arguments](const std::string& text) {
-    arguments.sources.separation.norm = norm_from_string(text);
-  });
+  add_option(command, "--norm", arguments.sources.separation.norm);
 }
 
-void add_bench_options(CLI::App& command, Arguments& arguments) {
-  command.option_defaults()->group("Measurement");
+void add_bench_options(Command& command, Arguments& arguments) {
+  begin_group(command, "Measurement");
   add_option(command, "--kernel", arguments.kernel);
   add_option(command, "--repetitions", arguments.bench.repetitions);
   add_option(command, "--seconds", arguments.bench.seconds);
   add_option(command, "--singles", arguments.bench.singles);
   add_option(command, "--judge", arguments.bench.judge);
-  command.option_defaults()->group("Output");
+  begin_group(command, "Output");
   add_option(command, "--json", arguments.json_file);
   add_option(command, "--page", arguments.page_file);
-  add_option(command, "--from", arguments.from)->excludes(command.get_option("PATH"));
+  add_option(command, "--from", arguments.from);
 }
 
 /// The default methods, if the user names no solver.
-void settle(const CLI::App& command, Arguments& arguments) {
+void settle(const Command& command, Arguments& arguments) {
   if (arguments.solvers.empty()) arguments.solvers.methods = solvers::default_methods();
   arguments.solvers.kernel = kernel_of(arguments.kernel);
   settle_solver_options(command, arguments.built_in_workload(), arguments.solvers);
@@ -437,10 +430,10 @@ void settle(const CLI::App& command, Arguments& arguments) {
 
 }  // namespace
 
-void add(CLI::App& app, Status& status) {
+void add(Command& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "bench", "Measure speed and error of solvers, also on whole steps; draw them");
+  Command* command = add_command(
+      app, "bench", "Measure speed and error of solvers, also on whole steps; draw them");
   add_query_options(*command, *arguments);
   add_named_solver_options(*command, arguments->solvers);
   add_option(*command, "--tolerance", arguments->tolerances);
@@ -458,7 +451,7 @@ void add(CLI::App& app, Status& status) {
       "two moving patches of mesh, and the built-in set. A step's queries are the candidates of "
       "the broad phase; the whole step is timed, too. Families at level L: " +
           levels + ".\n" + std::string(judging_statuses));
-  command->callback([arguments, command, &status] {
+  set_action(*command, [arguments, command, &status] {
     settle(*command, *arguments);
     status = BenchRun(*arguments).run();
   });

@@ -4,9 +4,14 @@
 /// The subcommands of `touchstone`. Each adds itself to the command line; its callback runs
 /// the command and sets the exit status.
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace touchstone::verify::cli {
+
+/// A command of the command line, or all of it: the parser's, through verify/cli/option_table.hpp.
+using Command = CLI::App;
 
 /// Outcome of a run, used as the exit status.
 enum class Status : int {
@@ -20,25 +25,24 @@ enum class Status : int {
 
 // The command `touchstone certify`, and so on with the other commands.
 // clang-format off
-namespace certify_command { void add(CLI::App& app, Status& status); }
-namespace solve_command { void add(CLI::App& app, Status& status); }
-namespace prove_command { void add(CLI::App& app, Status& status); }
-namespace generate_command { void add(CLI::App& app, Status& status); }
-namespace bench_command { void add(CLI::App& app, Status& status); }
-namespace fuzz_command { void add(CLI::App& app, Status& status); }
-namespace intersections_command { void add(CLI::App& app, Status& status); }
-namespace step_command { void add(CLI::App& app, Status& status); }
-namespace view_command { void add(CLI::App& app, Status& status); }
-namespace merge_command { void add(CLI::App& app, Status& status); }
-namespace derive_command { void add(CLI::App& app, Status& status); }
+namespace certify_command { void add(Command& app, Status& status); }
+namespace solve_command { void add(Command& app, Status& status); }
+namespace prove_command { void add(Command& app, Status& status); }
+namespace generate_command { void add(Command& app, Status& status); }
+namespace bench_command { void add(Command& app, Status& status); }
+namespace fuzz_command { void add(Command& app, Status& status); }
+namespace intersections_command { void add(Command& app, Status& status); }
+namespace step_command { void add(Command& app, Status& status); }
+namespace view_command { void add(Command& app, Status& status); }
+namespace merge_command { void add(Command& app, Status& status); }
 // clang-format on
 
 /// Adds all subcommands.
-inline void add_commands(CLI::App& app, Status& status) {
+inline void add_commands(Command& app, Status& status) {
   for (const auto add :
        {certify_command::add, solve_command::add, prove_command::add, generate_command::add,
         step_command::add, intersections_command::add, bench_command::add, fuzz_command::add,
-        merge_command::add, view_command::add, derive_command::add}) {
+        merge_command::add, view_command::add}) {
     add(app, status);
   }
 }

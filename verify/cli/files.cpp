@@ -57,11 +57,13 @@ std::FILE* Files::summary_stream() const { return writes_standard_output_ ? stde
 
 // ---- An output ----------------------------------------------------------------------------------
 
-Output::Output(Files& files, const std::string& name)
+Output::Output(Files& files, const std::string& name, std::string_view header)
     : files_(files), name_(name == "-" ? "/dev/stdout" : name) {
   if (name_.empty()) return;
   files.add_output(name_);
   file_.emplace(name_);
+  if (name_.ends_with(".zst")) compressor_.emplace();
+  write(header);
 }
 
 template <class Action>
@@ -76,8 +78,19 @@ void Output::attempt(const Action& action) {
   }
 }
 
+void Output::put(std::string_view text, bool is_last) {
+  std::string compressed;
+  if (compressor_) {
+    compressed = compressor_->compress(text);
+    if (is_last) compressed += compressor_->finish();
+    text = compressed;
+  }
+  file_->write(text);
+  bytes_ += text.size();
+}
+
 void Output::write(std::string_view text) {
-  attempt([&] { file_->write(text); });
+  attempt([&] { put(text, false); });
 }
 
 void Output::write_through(std::string_view text) {
@@ -88,13 +101,16 @@ void Output::write_through(std::string_view text) {
 }
 
 void Output::close() {
-  attempt([&] { file_->close(); });
+  attempt([&] {
+    put({}, true);
+    file_->close();
+  });
 }
 
 void Output::complete_with(const std::function<std::string()>& make) {
   attempt([&] {
     try {
-      file_->write(make());
+      put(make(), true);
     } catch (const std::bad_alloc&) {
       throw std::runtime_error(name_ + ": not enough memory for all that it would hold");
     }
@@ -106,6 +122,7 @@ void Output::close_incomplete() {
   attempt([&] {
     static constexpr const char* ending = ".incomplete";
     const bool is_named = !file_->is_device();
+    put({}, true);
     file_->close_as(ending);
     if (!is_named) return;
     report_warning(file_->path().string() + ending + ": not complete; " + name_ + " is as it was");

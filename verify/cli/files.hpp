@@ -7,6 +7,7 @@
 /// it is opened, and every input before it is read, including those found in folders: a file in two
 /// roles is an error before any data is lost.
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -17,6 +18,7 @@
 #include <string>
 #include <string_view>
 
+#include "verify/io/compressor.hpp"
 #include "verify/io/output_file.hpp"
 
 namespace touchstone::verify::cli {
@@ -54,18 +56,21 @@ class Files {
 /// An optional output file; "-" is standard output. It is opened before the work begins, so that a
 /// bad name is reported early, and is renamed when it is complete, so that an existing file is kept
 /// until then. Devices and pipes, and all files below /dev and /proc, are written to directly; a
-/// symbolic link remains one.
+/// symbolic link remains one. It is compressed if its name ends in ".zst".
 ///
 /// A failure to write is reported once, and the work continues without the file.
 class Output {
  public:
   /// \param files its record, which must live as long as it
+  /// \param header the first line
   /// \throws std::runtime_error as Files::add_output, or if the file cannot be created.
-  Output(Files& files, const std::string& name);
+  Output(Files& files, const std::string& name, std::string_view header = {});
 
   /// True if a file was named.
   [[nodiscard]] explicit operator bool() const { return !name_.empty(); }
   [[nodiscard]] bool failed() const { return failed_; }
+  /// Bytes of the file so far.
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
   /// Does nothing if no file was named or it has failed.
   void write(std::string_view text);
@@ -83,7 +88,10 @@ class Output {
   /// failure is reported like one to write.
   void complete_with(const std::function<std::string()>& make);
   /// Leaves the file of that name as it was; text that is written later is lost.
-  void discard() { file_.reset(); }
+  void discard() {
+    file_.reset();
+    bytes_ = 0;
+  }
   /// Closes an incomplete file: it gets the ending ".incomplete", an existing file of the given
   /// name stays as it was, and a warning says so.
   void close_incomplete();
@@ -91,10 +99,14 @@ class Output {
  private:
   template <class Action>
   void attempt(const Action& action);
+  /// Writes the text, and what the compressor has kept if it is the last one.
+  void put(std::string_view text, bool is_last);
 
   Files& files_;
   std::string name_;
   std::optional<io::OutputFile> file_;
+  std::optional<io::Compressor> compressor_;
+  std::uint64_t bytes_ = 0;
   bool failed_ = false;
 };
 

@@ -248,8 +248,6 @@ class FuzzRun {
         view_(files_, arguments.view_file),
         found_(files_, arguments, arguments.separation.given()),
         bar_("fuzz") {
-    require_contact_for("--view", !arguments.view_file.empty(), arguments.kind);
-    require_contact_for("--min-separation", !is_zero(arguments.separation.given()), arguments.kind);
     files_.add_inputs(arguments.solver.files());
     load_method();
     options_.seconds = arguments.run_seconds();
@@ -435,8 +433,8 @@ class FuzzRun {
 
 // ---- The command line ---------------------------------------------------------------------------
 
-void add_search_options(CLI::App& command, Arguments& arguments) {
-  command.option_defaults()->group("Search");
+void add_search_options(Command& command, Arguments& arguments) {
+  begin_group(command, "Search");
   add_option(command, "--seconds", arguments.seconds);
   add_option(command, "--queries", arguments.queries);
   add_option(command, "--seed", arguments.seed);
@@ -448,8 +446,8 @@ void add_search_options(CLI::App& command, Arguments& arguments) {
   add_separation_options(command, arguments.separation);
 }
 
-void add_output_options(CLI::App& command, Arguments& arguments) {
-  command.option_defaults()->group("Output");
+void add_output_options(Command& command, Arguments& arguments) {
+  begin_group(command, "Output");
   add_option(command, "--out", arguments.out_file);
   add_option(command, "--json", arguments.json_file);
   add_option(command, "--view", arguments.view_file);
@@ -457,10 +455,9 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
 
 }  // namespace
 
-void add(CLI::App& app, Status& status) {
+void add(Command& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("fuzz", "Search for queries that a solver answers wrongly");
+  Command* command = add_command(app, "fuzz", "Search for queries that a solver answers wrongly");
   add_solver_options(*command, arguments->solver);
   add_option(*command, "--exact", arguments->solver.exact);
   add_search_options(*command, *arguments);
@@ -475,7 +472,8 @@ void add(CLI::App& app, Status& status) {
       "findings. The search and the judgement: docs/testing.md.\n"
       "Exit status: 0 nothing found (130: interrupted), 1 findings, 2 bad input or usage, nothing "
       "judged.");
-  command->callback([arguments, command, &status] {
+  set_action(*command, [arguments, command, &status] {
+    for (const Kind kind : kinds_of(arguments->kind)) require_kind(*command, kind);
     settle_solver_options(*command, true, arguments->solver);
     settle_query_limit(*command, arguments->run_seconds(), arguments->solver);
     status = FuzzRun(*arguments).run();

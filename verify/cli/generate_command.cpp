@@ -158,7 +158,6 @@ std::vector<Written> write_families(const Arguments& arguments, Files& files) {
   require_same_separation(arguments.folder, separation);
   const std::vector<generate::Family> chosen_families = chosen(arguments);
   if (!is_zero(separation)) {
-    require_contact_for("--min-separation", true, arguments.kind);
     fs::create_directories(arguments.folder);
     data::write_separation(arguments.folder, separation);
   }
@@ -204,7 +203,7 @@ Status generate(const Arguments& arguments) {
     list_families(chosen(arguments));
     return Status::all_well;
   }
-  if (arguments.folder.empty()) throw CLI::RequiredError("--out");
+  if (arguments.folder.empty()) throw std::invalid_argument("--out is required");
   if (arguments.patch_cells > 0) return generate_patches(arguments);
   Files record;
   Output json_output(record, arguments.json_file);
@@ -234,20 +233,19 @@ Status generate(const Arguments& arguments) {
 
 }  // namespace
 
-void add(CLI::App& app, Status& status) {
+void add(Command& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("generate", "Write the built-in set: degenerate queries of known truth");
-  command->option_defaults()->group("Input");
-  auto* const family = add_option(*command, "--family", arguments->names);
-  auto* const degree = add_option(*command, "--degree", arguments->degrees)->excludes(family);
+  Command* command =
+      add_command(app, "generate", "Write the built-in set: degenerate queries of known truth");
+  begin_group(*command, "Input");
+  add_option(*command, "--family", arguments->names);
+  add_option(*command, "--degree", arguments->degrees);
   add_option(*command, "--kind", arguments->kind);
   add_option(*command, "--seed", arguments->seed);
   add_option(*command, "--count", arguments->count);
   add_separation_options(*command, arguments->separation);
-  auto* const patches = add_option(*command, "--patches", arguments->patch_cells);
-  patches->excludes(family)->excludes(degree);
-  command->option_defaults()->group("Output");
+  add_option(*command, "--patches", arguments->patch_cells);
+  begin_group(*command, "Output");
   add_option(*command, "--list", arguments->list);
   add_option(*command, "--out", arguments->folder);
   add_option(*command, "--npy", arguments->npy);
@@ -262,7 +260,10 @@ void add(CLI::App& app, Status& status) {
       "With --min-separation there are additional families, with contact at exactly that distance; "
       "the others are written without truth. FOLDER/separation.json records the separation.\n" +
           std::string(writing_statuses));
-  command->callback([arguments, &status] { status = generate(*arguments); });
+  set_action(*command, [arguments, command, &status] {
+    for (const Kind kind : kinds_of(arguments->kind)) require_kind(*command, kind);
+    status = generate(*arguments);
+  });
 }
 
 }  // namespace touchstone::verify::cli::generate_command

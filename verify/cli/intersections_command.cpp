@@ -67,8 +67,7 @@ std::string names_of(const report::IntersectionReport& report) {
 }
 
 /// Writes the certificate. \returns what is missing in the proof; empty if there is one.
-std::string prove(CertificatesFile& file, const mesh::Mesh& mesh,
-                  const fast::IntersectionOptions& search,
+std::string prove(Output& file, const mesh::Mesh& mesh, const fast::IntersectionOptions& search,
                   const report::IntersectionReport& report) {
   if (report.is_cut) {
     file.close_incomplete();
@@ -84,7 +83,7 @@ std::string prove(CertificatesFile& file, const mesh::Mesh& mesh,
                          .stop = search.stop});
   bar.clear();
   if (proof.is_complete()) {
-    file.close(exact::mesh_certificates_closing_line(1));
+    file.complete(exact::mesh_certificates_closing_line(1));
   } else {
     file.close_incomplete();
   }
@@ -94,7 +93,7 @@ std::string prove(CertificatesFile& file, const mesh::Mesh& mesh,
 Status intersections(const Arguments& arguments) {
   Files files;
   Output json(files, arguments.json_file), csv(files, arguments.csv_file);
-  CertificatesFile certificate(files, arguments.proof_file, exact::mesh_certificates_header());
+  Output certificate(files, arguments.proof_file, exact::mesh_certificates_header());
   ViewFile view(files, arguments.view_file);
   report::IntersectionReport report{
       .meshes = {}, .intersections = {}, .weld = arguments.weld, .apart = arguments.groups.apart};
@@ -142,14 +141,14 @@ Status intersections(const Arguments& arguments) {
   return is_well ? Status::all_well : Status::wrong_answers;
 }
 
-void add_options(CLI::App& command, Arguments& arguments) {
-  command.option_defaults()->group("Input");
+void add_options(Command& command, Arguments& arguments) {
+  begin_group(command, "Input");
   add_option(command, "meshes", arguments.meshes);
   add_group_options(command, arguments.groups);
   add_option(command, "--weld", arguments.weld);
   add_option(command, "--most", arguments.most);
   add_option(command, "--threads", arguments.threads);
-  command.option_defaults()->group("Output");
+  begin_group(command, "Output");
   add_option(command, "--csv", arguments.csv_file);
   add_option(command, "--prove", arguments.proof_file);
   add_option(command, "--json", arguments.json_file);
@@ -158,10 +157,10 @@ void add_options(CLI::App& command, Arguments& arguments) {
 
 }  // namespace
 
-void add(CLI::App& app, Status& status) {
+void add(Command& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("intersections", "Find where a mesh intersects itself or others, exactly");
+  Command* command =
+      add_command(app, "intersections", "Find where a mesh intersects itself or others, exactly");
   add_options(*command, *arguments);
   set_help(*command,
            "touchstone intersections bunny.obj --csv pairs.csv --view pairs.html\n"
@@ -176,7 +175,7 @@ void add(CLI::App& app, Status& status) {
            "Exit status: 0 free of intersections, 1 an intersection or such a tetrahedron, 2 bad "
            "input or usage, 130 "
            "interrupted.");
-  command->callback([arguments, &status] { status = intersections(*arguments); });
+  set_action(*command, [arguments, &status] { status = intersections(*arguments); });
 }
 
 }  // namespace touchstone::verify::cli::intersections_command

@@ -19,13 +19,13 @@ struct Arguments {
 
 }  // namespace
 
-void add(CLI::App& app, Status& status) {
+void add(Command& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("merge", "Add up the results of all parts of a run (--shard)");
-  command->option_defaults()->group("Input");
+  Command* command =
+      add_command(app, "merge", "Add up the results of all parts of a run (--shard)");
+  begin_group(*command, "Input");
   add_option(*command, "parts", arguments->parts);
-  command->option_defaults()->group("Output");
+  begin_group(*command, "Output");
   add_option(*command, "--json", arguments->json_file);
   set_help(*command,
            "touchstone merge run/*.json   # of certify data --shard I/N --json run/I.json",
@@ -33,8 +33,9 @@ void add(CLI::App& app, Status& status) {
            "another run, is an error that names it: version, options, the contents of files that "
            "options name, and the names and sizes of all inputs must agree.\n" +
                std::string(answering_statuses));
-  command->callback(
-      [arguments, &status] { status = merge_shards(arguments->parts, arguments->json_file); });
+  set_action(*command, [arguments, &status] {
+    status = merge_shards(arguments->parts, arguments->json_file);
+  });
 }
 
 }  // namespace touchstone::verify::cli::merge_command

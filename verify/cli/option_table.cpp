@@ -2,18 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cfloat>
 #include <climits>
 #include <memory>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/io/number_text.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/io/terminal.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/report/step_report.hpp"
 #include "verify/solvers/published.hpp"
@@ -49,7 +53,6 @@ std::vector<OptionRow> make_table() {
       {"--keep-going", "", {}, "Skip and count invalid queries and files (exit status 2)"},
       {"--threads", "N", Whole{0, INT_MAX}, "Cores to use (0: all)"},
       {"--seed", "N", Whole{}, "Seed of all queries", "fuzz"},
-      {"--seed", "N", Whole{}, "Seed of the search for the worst error", "derive"},
       {"--seed", "N", Whole{}, "Seed of the built-in set"},
       {"--count", "N", Whole{1}, "Queries of each family and kind, and level", "bench"},
       {"--count", "N", Whole{1}, "Queries of each family and kind of the built-in set"},
@@ -79,7 +82,7 @@ std::vector<OptionRow> make_table() {
       {"--separations", "FILE", {}, "Lines GROUP,GROUP,DISTANCE, in place of the sum of two radii"},
 
       // Parts of a run.
-      {"--shard", "I/N", {}, "Do part I of N, from 0 on (touchstone merge adds up the JSON of all); auto: as a Slurm array or mpirun says"},
+      {"--shard", "I/N", {}, "Do part I of N, from 0 on (touchstone merge adds up the JSON of all)"},
       {"parts", "FILE.json", {}, "The JSON of all parts of a run (--shard I/N --json FILE.json)", "merge", required},
 
       // Solvers.
@@ -123,9 +126,6 @@ std::vector<OptionRow> make_table() {
       {"--alpha", "A", Real{0.0, 1.0}, "Judge the step with this step size, to the rounded x0 + alpha (x1 - x0), and report a maximal one"},
       {"--claim", "CLAIM", OneOf{{"time_of_impact", "collision"}}, "Claim for a collision: its time_of_impact, or only the collision"},
       {"--width", "W", {}, "Width of the interval around a time of impact, a decimal number (default: neighbouring doubles)"},
-      {"--model", "NAME", OneOf{{"gappa", "observed", "published", "rigorous"}}, "Columns to compute: published, rigorous, gappa, observed; repeatable", "derive", list},
-      {"--precision", "NAME", OneOf{{"double", "float", "double_double"}}, "Only double, float or double_double"},
-      {"--evaluations", "N", Whole{1}, "Evaluations of the search, for each row"},
 
       // Output.
       {"--json", "FILE", {}, "Write each row as a line of JSON", "bench"},
@@ -154,9 +154,43 @@ std::vector<OptionRow> make_table() {
       {"--page", "FILE.html", {}, "Draw the rows: speed against error, and error over the level"},
       {"--from", "FILE", {}, "Rows of an earlier run (--json), to be drawn by --page; repeatable"},
       {"--live", "FILE.js", {}, "Embed the solvers in WebAssembly (./run playground), so that the page decides other queries"},
-      {"--emit", "FILE", {}, "Write the header of bounds (touchstone/filters/error_bounds.hpp)"},
       // clang-format on
   };
+}
+
+/// Two options of a command that exclude each other, or one that needs the other.
+struct Relation {
+  std::string_view command;
+  std::string_view option;
+  std::string_view other;
+  bool needs = false;
+};
+
+constexpr auto relations = std::to_array<Relation>({
+    {"certify", "--seconds", "--shard"},
+    {"certify", "--baseline", "--shard"},
+    {"certify", "--write-baseline", "--baseline", true},
+    {"generate", "--degree", "--family"},
+    {"generate", "--patches", "--family"},
+    {"generate", "--patches", "--degree"},
+    {"step", "--earliest", "--all"},
+    {"step", "--free", "--all"},
+    {"step", "--free", "--earliest"},
+    {"step", "--alpha", "--t-max"},
+    {"bench", "--step", "PATH"},
+    {"bench", "--from", "PATH"},
+    {"bench", "--level", "PATH"},
+    {"bench", "--family", "PATH"},
+});
+
+/// Options about contact, of a command or of all.
+constexpr auto about_contact = std::to_array<std::pair<std::string_view, std::string_view>>(
+    {{"", "--min-separation"}, {"certify", "--view"}, {"fuzz", "--view"}});
+
+bool is_about_contact(std::string_view command, std::string_view option) {
+  return std::ranges::any_of(about_contact, [&](const auto& of) {
+    return of.second == option && (of.first.empty() || of.first == command);
+  });
 }
 
 }  // namespace
@@ -198,7 +232,87 @@ std::string fault_of_value(const Values& values, const std::string& text) {
   return fmt::format("{} must be a finite number ≥ 0", text);
 }
 
-CLI::Option* finish_option(CLI::Option* option, const OptionRow& row) {
+// ---- The parser ---------------------------------------------------------------------------------
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+template <class Number>
+void read(const OptionRow& /*row*/, const std::string& word, Number& number) {
+  number = io::number_from_text<Number>(word).value();
+}
+void read(const OptionRow& row, const std::string& word, double& number) {
+  // CLI11 would round twice.
+  number = std::holds_alternative<Distance>(row.values)
+               ? data::distance_from_text(word).value()
+               : io::number_from_text<double>(word).value();
+}
+void read(const OptionRow& row, const std::string& word, std::optional<double>& number) {
+  read(row, word, number.emplace());
+}
+void read(const OptionRow& /*row*/, const std::string& word, std::string& text) { text = word; }
+void read(const OptionRow& /*row*/, const std::string& word, std::filesystem::path& path) {
+  path = word;
+}
+
+void read_all(const OptionRow& row, const Words& words, auto& value) {
+  read(row, words.at(0), value);
+}
+template <class Value>
+void read_all(const OptionRow& row, const Words& words, std::vector<Value>& values) {
+  values.clear();
+  for (const std::string& word : words) read(row, word, values.emplace_back());
+}
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+void read_all(const OptionRow& /*row*/, const Words& words, Pairs& pairs) {
+  pairs.clear();
+  for (std::size_t i = 0; i + 1 < words.size(); i += 2) pairs.emplace_back(words[i], words[i + 1]);
+}
+
+template <class Value>
+constexpr bool is_list = false;
+template <class Value>
+constexpr bool is_list<std::vector<Value>> = true;
+
+/// Shows the variable's value as the default, if the option takes it.
+template <class Value>
+void show_default(CLI::Option& option, const OptionRow& row, const Value& value) {
+  if constexpr (std::is_arithmetic_v<Value> || std::is_same_v<Value, std::string>) {
+    std::ostringstream text;
+    text << value;
+    const bool is_text = std::holds_alternative<Text>(row.values);
+    if (!is_text && fault_of_value(row.values, text.str()).empty()) option.default_str(text.str());
+  }
+}
+
+template <class Value>
+CLI::Option* added(CLI::App& command, const OptionRow& row, Value* value) {
+  CLI::Option* const option = command.add_option(
+      row.name,
+      [&row, value](const Words& words) {
+        read_all(row, words, *value);
+        return true;
+      },
+      row.text);
+  if constexpr (std::is_same_v<Value, Pairs>) option->type_size(2);
+  if constexpr (is_list<Value>) option->expected(CLI::detail::expected_max_vector_size);
+  show_default(*option, row, *value);
+  return option;
+}
+CLI::Option* added(CLI::App& command, const OptionRow& row, std::string* value) {
+  if (row.name.ends_with('}')) return command.add_flag(row.name, *value, row.text);
+  return added<std::string>(command, row, value);
+}
+CLI::Option* added(CLI::App& command, const OptionRow& row, bool* value) {
+  return command.add_flag(row.name, *value, row.text);
+}
+CLI::Option* added(CLI::App& command, const OptionRow& row, const std::function<void()>& action) {
+  return command.add_flag_callback(row.name, action, row.text);
+}
+
+/// Gives the option the properties of its row.
+void finish_option(CLI::Option* option, const OptionRow& row) {
   const bool is_flag = option->get_expected_min() == 0;
   if (!is_flag) option->type_name(row.type);
   if (!std::holds_alternative<Text>(row.values)) {
@@ -208,17 +322,108 @@ CLI::Option* finish_option(CLI::Option* option, const OptionRow& row) {
   if (row.form == OptionForm::pair) option->expected(2);
   if (row.form == OptionForm::usual && option->get_expected_max() > 1)
     option->allow_extra_args(false);
-  return option;
 }
+
+/// Lets the option exclude and need those that the command has already.
+void relate(CLI::App& command, std::string_view name) {
+  for (const Relation& relation : relations) {
+    if (relation.command != command.get_name()) continue;
+    if (name != relation.option && name != relation.other) continue;
+    CLI::Option* const option = command.get_option_no_throw(std::string(relation.option));
+    CLI::Option* const other = command.get_option_no_throw(std::string(relation.other));
+    if (option == nullptr || other == nullptr) continue;
+    if (relation.needs) {
+      option->needs(other);
+    } else {
+      option->excludes(other);
+    }
+  }
+}
+
+}  // namespace
+
+Command* add_command(Command& program, const std::string& name, const std::string& description) {
+  return program.add_subcommand(name, description);
+}
+
+void begin_group(Command& command, const std::string& name) {
+  command.option_defaults()->group(name);
+}
+
+void add_option(Command& command, std::string_view name, const Target& target) {
+  const OptionRow& row = option_row(command.get_name(), name);
+  finish_option(std::visit([&](const auto& of) { return added(command, row, of); }, target), row);
+  relate(command, name);
+}
+
+void set_action(Command& command, const std::function<void()>& action) { command.callback(action); }
+
+std::string name_of(const Command& command) { return command.get_name(); }
+
+bool is_given(const Command& command, const std::string& name) {
+  const CLI::Option* const option = command.get_option_no_throw(name);
+  return option != nullptr && option->count() != 0;
+}
+
+std::vector<std::pair<std::string, std::string>> given_options(const Command& command) {
+  std::vector<std::pair<std::string, std::string>> given;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& value : option->results())
+      given.emplace_back(option->get_name(), value);
+  }
+  return given;
+}
+
+void require_kind(const Command& command, Kind kind, const std::filesystem::path& file) {
+  const std::string name = command.get_name();
+  const auto refuse = [&](std::string_view what, std::string_view way_out) {
+    throw std::invalid_argument(
+        fmt::format("{}{} takes vertex-face and edge-edge alone, not a {}: {}{}",
+                    file.empty() ? "" : file.string() + ": ", what, to_string(kind), way_out,
+                    file.empty() ? "choose another --kind" : "name other files"));
+  };
+  if (!is_element(kind)) return;
+  for (const auto& [option, value] : given_options(command)) {
+    // A distance of 0 is contact itself.
+    if (!is_about_contact(name, option) || data::distance_from_text(value) == 0.0) continue;
+    refuse(option, "leave it out, or ");
+  }
+  const Values& kinds = option_row(name, "--kind").values;
+  if (!fault_of_value(kinds, std::string(to_string(kind))).empty()) refuse(name, "");
+}
+
+// ---- Help ---------------------------------------------------------------------------------------
 
 namespace {
 
+/// The longest line, in characters.
+constexpr std::size_t help_width = 100;
 /// The column of the descriptions of options.
 constexpr std::size_t description_column = 26;
 /// The separator between examples and notes in a footer, because CLI11 stores one text for both.
 constexpr char separator = '\f';
 
 std::string heading(std::string_view text) { return "\n" + std::string(text) + ":\n"; }
+
+/// The text in lines of at most `help_width` characters, broken between words; the first line
+/// begins at column `start`, the others are indented by `indent`.
+std::string wrapped(std::string_view text, std::size_t start, std::size_t indent) {
+  std::string result, word;
+  std::size_t column = start;
+  for (std::istringstream words{std::string(text)}; words >> word;) {
+    const bool is_first = result.empty();
+    if (!is_first && column + 1 + word.size() > help_width) {
+      result += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (!is_first) {
+      result += ' ';
+      ++column;
+    }
+    result += word;
+    column += word.size();
+  }
+  return result;
+}
 
 class HelpFormatter : public CLI::Formatter {
  public:
@@ -281,54 +486,9 @@ class HelpFormatter : public CLI::Formatter {
   }
 };
 
-/// The number of missing, wrong and additional letters (the Levenshtein distance).
-std::size_t distance_between(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = std::exchange(row[j], std::min({replaced, row[j] + 1, row[j - 1] + 1}));
-    }
-  }
-  return row.back();
-}
-
 }  // namespace
 
-std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
-  static constexpr std::size_t farthest = 2;
-  std::string nearest;
-  std::size_t least = std::min(farthest + 1, word.size());
-  for (const std::string& name : names) {
-    const std::size_t distance = distance_between(word, name);
-    if (distance >= least) continue;
-    least = distance;
-    nearest = name;
-  }
-  return nearest;
-}
-
-std::string wrapped(std::string_view text, std::size_t start, std::size_t indent) {
-  std::string result, word;
-  std::size_t column = start;
-  for (std::istringstream words{std::string(text)}; words >> word;) {
-    const bool is_first = result.empty();
-    if (!is_first && column + 1 + word.size() > help_width) {
-      result += "\n" + std::string(indent, ' ');
-      column = indent;
-    } else if (!is_first) {
-      result += ' ';
-      ++column;
-    }
-    result += word;
-    column += word.size();
-  }
-  return result;
-}
-
-void set_help(CLI::App& command, std::string_view examples, std::string_view notes) {
+void set_help(Command& command, std::string_view examples, std::string_view notes) {
   std::string text(examples);
   for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) {
     text.insert(at + 1, std::string("Example: ").size(), ' ');
@@ -336,9 +496,56 @@ void set_help(CLI::App& command, std::string_view examples, std::string_view not
   command.footer(text + separator + std::string(notes));
 }
 
-void use_help_format(CLI::App& app) {
+namespace {
+
+/// The reason of an error of usage, also of an option that takes one value and is given twice.
+std::string reason_of(const CLI::Error& error) {
+  const std::string reason = error.what();
+  const std::size_t end = reason.find(": At Most 1 required but received ");
+  return end == std::string::npos ? reason : reason.substr(0, end) + " is given more than once";
+}
+
+}  // namespace
+
+Status run_command_line(int argc, char** argv) {
+  CLI::App app{
+      "Exact ground truth, verified solvers and test tools for continuous collision detection",
+      "touchstone"};
   app.formatter(std::make_shared<HelpFormatter>());
   app.set_help_flag("-h,--help", "Print this help");
+  set_help(
+      app, "touchstone certify path/to/queries",
+      "touchstone COMMAND --help describes a command.\n"
+      "Exit status: 0 success, 1 wrong answers, collisions or intersections, 2 bad input or usage, "
+      "130 interrupted.");
+  app.set_version_flag("--version", std::string(version()), "Print the version");
+  // The message quotes the command line.
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return io::printable(reason_of(error)) + "\nRun with --help for more information.\n";
+  });
+  app.require_subcommand(0, 1);
+  Status status = Status::all_well;
+  add_commands(app, status);
+  const auto is_named = [&](const CLI::App* command) { return command->check_name(argv[1]); };
+  if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_named).empty()) {
+    report_error(fmt::format("no command {}; touchstone --help lists them", argv[1]));
+    return Status::bad_input;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Help and version are exceptions too.
+    std::ostringstream help, reason;
+    const int code = app.exit(error, help, reason);
+    io::print(stdout, help.str());
+    io::print(stderr, reason.str());
+    return code == 0 ? Status::all_well : Status::bad_input;
+  }
+  if (app.get_subcommands().empty()) {
+    io::print(stderr, app.help());
+    return Status::bad_input;
+  }
+  return status;
 }
 
 }  // namespace touchstone::verify::cli

@@ -3,17 +3,24 @@
 /// \file
 /// The table of options: each is described once, for all commands that have it. A command takes its
 /// options from here by name and binds them to variables (add_option); --help, the page of all
-/// options (docs/site) and the test that tries every option at its limits use the same rows.
+/// options (docs/site) and the test that tries every option at its limits use the same rows. Which
+/// options exclude or need each other, and which take no elements, is data there, too.
+///
+/// option_table.cpp is the only source that includes the parser, CLI11, whose headers take longer
+/// to compile than most commands.
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "touchstone/query.hpp"
+#include "verify/cli/commands.hpp"
 
 namespace touchstone::verify::cli {
 
@@ -79,49 +86,52 @@ struct OptionRow {
 /// The fault of a text as one of these values; empty if it is valid.
 [[nodiscard]] std::string fault_of_value(const Values& values, const std::string& text);
 
-/// Gives the option the properties of its row.
-CLI::Option* finish_option(CLI::Option* option, const OptionRow& row);
+// A command in the parser.
 
-/// Adds the command's option of that name, in the present group of its help. The target is a
-/// variable, which must live until the command line is parsed, or a function of the value, or of
-/// nothing for a flag. The help shows the variable's value as the default, if the option takes it.
-template <class Target>
-CLI::Option* add_option(CLI::App& command, std::string_view name, Target&& target) {
-  using Value = std::remove_cvref_t<Target>;
-  const OptionRow& row = option_row(command.get_name(), name);
-  if constexpr (std::is_same_v<Value, bool>) {
-    return finish_option(command.add_flag(row.name, target, row.text), row);
-  } else if constexpr (std::is_invocable_v<Value>) {
-    return finish_option(
-        command.add_flag_callback(row.name, std::forward<Target>(target), row.text), row);
-  } else if constexpr (std::is_invocable_v<Value, std::string>) {
-    return finish_option(command.add_option_function(
-                             row.name, std::function<void(const std::string&)>(target), row.text),
-                         row);
-  } else if constexpr (std::is_invocable_v<Value, double>) {
-    return finish_option(
-        command.add_option_function(row.name, std::function<void(const double&)>(target), row.text),
-        row);
-  } else {
-    CLI::Option* option = nullptr;
-    if constexpr (std::is_same_v<Value, std::string>) {
-      if (row.name.ends_with('}')) option = command.add_flag(row.name, target, row.text);
-    }
-    if (option == nullptr) option = command.add_option(row.name, target, row.text);
-    if constexpr (std::is_arithmetic_v<Value> || std::is_same_v<Value, std::string>) {
-      const bool is_text = std::holds_alternative<Text>(row.values);
-      const std::string value = CLI::detail::to_string(target);
-      if (!is_text && fault_of_value(row.values, value).empty()) option->capture_default_str();
-    }
-    return finish_option(option, row);
-  }
+/// The variable of an option, which must live until the command line is parsed, or what a flag
+/// does.
+using Target =
+    std::variant<bool*, int*, unsigned*, std::int64_t*, std::uint64_t*, double*,
+                 std::optional<double>*, std::string*, std::vector<std::uint64_t>*,
+                 std::vector<std::string>*, std::vector<std::filesystem::path>*,
+                 std::vector<std::pair<std::string, std::string>>*, std::function<void()>>;
+
+/// Adds a command to the program.
+Command* add_command(Command& program, const std::string& name, const std::string& description);
+
+/// Begins a group of the command's help, which has the options that are added from here on.
+void begin_group(Command& command, const std::string& name);
+
+/// Adds the command's option of that name. The help shows the variable's value as the default, if
+/// the option takes it.
+void add_option(Command& command, std::string_view name, const Target& target);
+template <class Variable>
+void add_option(Command& command, std::string_view name, Variable& variable) {
+  add_option(command, name, Target(&variable));
 }
+
+/// Sets what the command does.
+void set_action(Command& command, const std::function<void()>& action);
+
+[[nodiscard]] std::string name_of(const Command& command);
+
+/// True if the command line has that option of the command.
+[[nodiscard]] bool is_given(const Command& command, const std::string& option);
+
+/// The options on the command line with their values, in the order of the help.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> given_options(
+    const Command& command);
+
+/// \throws std::invalid_argument, naming file and option, if the command, or an option that it was
+/// given, takes no queries of that kind.
+/// \param file of these queries; empty: --kind asks for them
+void require_kind(const Command& command, Kind kind, const std::filesystem::path& file = {});
+
+/// Parses the command line and runs its command. Prints help, version and errors of usage.
+[[nodiscard]] Status run_command_line(int argc, char** argv);
 
 // The help of a command: what it does, examples, its options by group (input, solver, output),
 // then notes and exit statuses, in lines of at most 100 characters.
-
-/// The longest line of a help text, in characters.
-inline constexpr std::size_t help_width = 100;
 
 /// The exit statuses of a command that judges answers.
 inline constexpr std::string_view judging_statuses =
@@ -139,18 +149,6 @@ inline constexpr std::string_view writing_statuses =
     "Exit status: 0 success, 2 bad input or usage, 130 interrupted (results so far are written).";
 
 /// Sets the command's examples, one on each line, and its notes, one paragraph on each line.
-void set_help(CLI::App& command, std::string_view examples, std::string_view notes);
-
-/// Makes the program and its later subcommands print their help in this form.
-void use_help_format(CLI::App& app);
-
-/// The probably intended name for a word: the closest one, if its distance is at most two letters;
-/// empty if there is none.
-[[nodiscard]] std::string nearest_name(std::string_view word,
-                                       const std::vector<std::string>& names);
-
-/// The text in lines of at most `help_width` characters, broken between words; the first line
-/// begins at column `start`, the others are indented by `indent`.
-[[nodiscard]] std::string wrapped(std::string_view text, std::size_t start, std::size_t indent);
+void set_help(Command& command, std::string_view examples, std::string_view notes);
 
 }  // namespace touchstone::verify::cli

@@ -3,13 +3,13 @@
 /// \file
 /// Common options of subcommands.
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "touchstone/query.hpp"
+#include "verify/cli/commands.hpp"
 
 namespace touchstone::verify::cli {
 
@@ -19,7 +19,7 @@ inline constexpr std::uint64_t default_seed = 2021;
 /// The requested separation.
 struct SeparationArguments {
   std::optional<double> distance;
-  std::optional<Norm> norm;
+  std::string norm;  ///< empty: the usual one
 
   /// The separation of the command line; by default distance 0.
   [[nodiscard]] Separation given() const;
@@ -31,20 +31,13 @@ struct SeparationArguments {
 };
 
 /// Adds --min-separation and --norm; the arguments must live until the command line is parsed.
-void add_separation_options(CLI::App& command, SeparationArguments& arguments);
+void add_separation_options(Command& command, SeparationArguments& arguments);
 
 /// Prints "touchstone: error: …" on standard error, printable (printable.hpp).
 void report_error(std::string_view message);
 
 /// Prints "touchstone: warning: …" on standard error, printable.
 void report_warning(std::string_view message);
-
-/// "WHAT takes vertex-face and edge-edge alone, not a tetrahedron": the reason of an error.
-[[nodiscard]] std::string contact_alone(std::string_view what, Kind kind);
-
-/// \throws std::invalid_argument if an option is used that is about contact, and --kind asks for
-/// elements.
-void require_contact_for(std::string_view option, bool is_used, const std::string& kind);
 
 /// The command line of this process, quoted for a shell, with the program's name without a path.
 [[nodiscard]] std::string command_line();

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "touchstone/certificate_text.hpp"
 #include "touchstone/certified.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/printable.hpp"
@@ -33,47 +34,12 @@ void append(std::vector<Thing>& all, std::vector<Thing>&& further) {
 
 // ---- Certificates -------------------------------------------------------------------------------
 
-CertificatesFile::CertificatesFile(Files& files, const std::string& name, std::string_view header)
-    : output_(files, name) {
-  if (name.ends_with(".zst")) compressor_.emplace();
-  write(header);
-}
-
-void CertificatesFile::write(std::string_view certificates) {
-  if (!output_ || output_.failed()) return;
-  if (compressor_) {
-    put(compressor_->compress(certificates));
-  } else {
-    put(certificates);
-  }
-}
-
-void CertificatesFile::close(std::uint64_t certificates) {
+void close_certificates(Output& file, std::uint64_t certificates) {
   if (io::interrupted()) {
-    close_incomplete();
+    file.close_incomplete();
   } else {
-    close(exact::certificates_closing_line(certificates));
+    file.complete(exact::certificates_closing_line(certificates));
   }
-}
-
-void CertificatesFile::close(std::string_view closing_line) {
-  write(closing_line);
-  finish();
-  output_.close();
-}
-
-void CertificatesFile::close_incomplete() {
-  finish();
-  output_.close_incomplete();
-}
-
-void CertificatesFile::finish() {
-  if (output_ && !output_.failed() && compressor_) put(compressor_->finish());
-}
-
-void CertificatesFile::put(std::string_view bytes) {
-  output_.write(bytes);
-  bytes_ += bytes.size();
 }
 
 void report_beyond_limits(const jobs::ProofCounts& counts) {
@@ -84,10 +50,6 @@ void report_beyond_limits(const jobs::ProofCounts& counts) {
 
 void ViewFile::add(view::ViewedQuery query) {
   if (!output_) return;
-  if (is_element(kind_of(query))) {
-    ++elements_;
-    return;
-  }
   const auto known = std::ranges::find_if(
       queries_, [&](const view::ViewedQuery& other) { return is_same(other, query); });
   if (known != queries_.end()) {
@@ -128,13 +90,6 @@ std::string ViewFile::page(const fast::MethodOptions& options) const {
 
 std::string ViewFile::summary(std::uint64_t allowed) const {
   if (!output_ || output_.failed()) return {};
-  if (elements_ == 0) return contents(allowed);
-  return contents(allowed) +
-         fmt::format("left out: {} about elements; it draws vertex-face and edge-edge alone\n",
-                     elements_ == 1 ? "1 query" : fmt::format("{} queries", elements_));
-}
-
-std::string ViewFile::contents(std::uint64_t allowed) const {
   const std::string name = io::printable(name_);
   if (!step_.is_null()) {
     const auto total = step_.at("total").get<std::size_t>();

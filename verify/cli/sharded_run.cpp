@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
+#include "verify/cli/option_table.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/data/dataset.hpp"
@@ -34,46 +33,15 @@ constexpr std::size_t most_bytes = std::size_t{1} << 31U;
 
 // ---- Shards -------------------------------------------------------------------------------------
 
-std::optional<std::size_t> variable(const char* name) {
-  const char* const value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): one thread
-  return value == nullptr ? std::nullopt : io::number_from_text<std::size_t>(value);
-}
-
-Shard checked(std::size_t index, std::size_t count) {
-  if (index < count) return {index, count};
-  throw std::invalid_argument(
-      fmt::format("--shard: there is no part {} of {}; parts are counted from 0", index, count));
-}
-
-/// The part of a task of a Slurm array. An array of some tasks alone, such as failed ones that are
-/// submitted again, does not tell the number of all tasks.
-Shard shard_of_array(std::size_t task) {
-  const std::size_t count = variable("SLURM_ARRAY_TASK_COUNT").value_or(0);
-  const bool is_whole = variable("SLURM_ARRAY_TASK_MIN") == 0U &&
-                        variable("SLURM_ARRAY_TASK_MAX").value_or(0) + 1 == count;
-  if (is_whole && count > 1) return checked(task, count);
-  throw std::invalid_argument(
-      fmt::format("--shard auto: the number of parts is unknown, because the tasks of this Slurm "
-                  "array are not 0 to N-1 with N > 1; pass --shard {}/N",
-                  task));
-}
-
-Shard shard_of_environment() {
-  if (const auto task = variable("SLURM_ARRAY_TASK_ID")) return shard_of_array(*task);
-  const auto rank = variable("OMPI_COMM_WORLD_RANK"), size = variable("OMPI_COMM_WORLD_SIZE");
-  if (rank && size) return checked(*rank, *size);
-  throw std::invalid_argument(
-      "--shard auto: neither SLURM_ARRAY_TASK_ID nor OMPI_COMM_WORLD_RANK and _SIZE are set");
-}
-
+/// \throws std::invalid_argument if the text is no I/N with I < N
 Shard shard_of(std::string_view text) {
-  if (text == "auto") return shard_of_environment();
   const std::size_t slash = std::min(text.find('/'), text.size());
   const auto index = io::number_from_text<std::size_t>(text.substr(0, slash));
   const auto count =
       io::number_from_text<std::size_t>(text.substr(std::min(slash + 1, text.size())));
-  if (index && count) return checked(*index, *count);
-  throw std::invalid_argument(fmt::format("--shard: '{}' is not I/N, as 0/4 or 3/4", text));
+  if (index && count && *index < *count) return {*index, *count};
+  throw std::invalid_argument(
+      fmt::format("--shard: '{}' is not I/N, as 0/4 or 3/4: part I of N, from 0 on", text));
 }
 
 // ---- What the parts of a run have in common -----------------------------------------------------
@@ -96,16 +64,13 @@ std::string program() {
 }
 
 /// The options that results depend on, in the order of the help.
-std::vector<std::string> options_of(const CLI::App& command) {
+std::vector<std::string> options_of(const Command& command) {
   static const std::set<std::string> others{"PATH",   "--shard", "--threads", "--show-output",
                                             "--json", "--truth", "--prove",   "--view",
                                             "--out",  "--table", "--badge"};
   std::vector<std::string> options;
-  for (const CLI::Option* option : command.get_options()) {
-    if (others.contains(option->get_name())) continue;
-    for (const std::string& value : option->results()) {
-      options.push_back(option->get_name() + "=" + value);
-    }
+  for (const auto& [option, value] : given_options(command)) {
+    if (!others.contains(option)) options.push_back(option + "=" + value);
   }
   return options;
 }
@@ -329,12 +294,12 @@ json sum_of(const std::map<std::size_t, Part>& parts) {
 
 }  // namespace
 
-void set_shard(const CLI::App& command, const std::string& shard, SourceArguments& sources) {
+void set_shard(const Command& command, const std::string& shard, SourceArguments& sources) {
   if (shard.empty()) return;
   sources.shard = shard_of(shard);
   const std::vector<std::string> options = options_of(command);
   sources.shard_record = json{{"index", sources.shard.index}, {"count", sources.shard.count},
-                              {"program", program()},         {"command", command.get_name()},
+                              {"program", program()},         {"command", name_of(command)},
                               {"options", options},           {"uses", uses_of(options)},
                               {"inputs", inputs_of(sources)}}
                              .dump();

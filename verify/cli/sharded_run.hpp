@@ -11,7 +11,6 @@
 /// find mistakes, no forgeries. The JSON of a part that did not come to its end has another name,
 /// so that it cannot be taken for a whole one.
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -24,11 +23,10 @@
 
 namespace touchstone::verify::cli {
 
-/// Sets the part of the sources that a command does. "auto" is that of SLURM_ARRAY_TASK_ID and
-/// _COUNT if the array has the tasks 0 to N-1, or of OMPI_COMM_WORLD_RANK and _SIZE.
-/// \param shard "I/N", "auto", or empty: all sources
+/// Sets the part of the sources that a command does.
+/// \param shard "I/N", or empty: all sources
 /// \throws std::invalid_argument if it is none of these.
-void set_shard(const CLI::App& command, const std::string& shard, SourceArguments& sources);
+void set_shard(const Command& command, const std::string& shard, SourceArguments& sources);
 
 /// Completes the JSON of a run, if it has one.
 /// \param status of a part

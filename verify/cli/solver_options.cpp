@@ -35,49 +35,50 @@ std::vector<std::string> named_methods(const SolverArguments& arguments) {
 
 }  // namespace
 
-void add_named_solver_options(CLI::App& command, SolverArguments& arguments) {
-  command.option_defaults()->group("Solver");
+void add_named_solver_options(Command& command, SolverArguments& arguments) {
+  begin_group(command, "Solver");
   add_option(command, "--method", arguments.methods);
   add_plugin_option(command, arguments);
   add_option(command, "--query-limit", arguments.query_limit);
-  add_option(command, "--memory-limit", [&arguments](double gibibytes) {
-    arguments.memory_limit = static_cast<std::uint64_t>(gibibytes * bytes_of_gibibyte);
-  });
+  add_option(command, "--memory-limit", arguments.memory_limit);
   add_option(command, "--allow-processes", arguments.allow_processes);
   add_option(command, "--show-output", arguments.show_output);
 }
 
-void add_solver_options(CLI::App& command, SolverArguments& arguments) {
+void add_solver_options(Command& command, SolverArguments& arguments) {
   add_named_solver_options(command, arguments);
   add_option(command, "--tolerance", arguments.options.tolerance);
   add_option(command, "--max-checks", arguments.options.max_checks);
 }
 
-void add_plugin_option(CLI::App& command, SolverArguments& arguments) {
-  solvers::TermsChanges& terms = arguments.terms;
+void add_plugin_option(Command& command, SolverArguments& arguments) {
   add_option(command, "--plugin", arguments.plugins);
-  add_option(command, "--answers-kinds", arguments.kinds)->each([&terms](const std::string& name) {
-    if (!terms.kinds) terms.kinds.emplace().fill(false);
-    terms.kinds->at(static_cast<std::size_t>(kind_from_string(name))) = true;
-  });
-  add_option(command, "--float-coordinates", [&terms] { terms.float_coordinates = true; });
-  add_option(command, "--starts-apart", arguments.starts_apart)
-      ->each([&terms](const std::string& number) {
-        terms.starts_apart = io::number_from_text<double>(number);
-      });
-  add_option(command, "--times", [&terms](const std::string& name) {
-    terms.times = name == "bounds" ? fast::Times::bounds
-                  : name == "none" ? fast::Times::none
-                                   : fast::Times::estimates;
-  });
-  add_option(command, "--time-error", terms.time_error);
+  add_option(command, "--answers-kinds", arguments.kinds);
+  add_option(command, "--float-coordinates", arguments.float_coordinates);
+  add_option(command, "--starts-apart", arguments.starts_apart);
+  add_option(command, "--times", arguments.times);
+  add_option(command, "--time-error", arguments.time_error);
 }
 
-void settle_query_limit(const CLI::App& command, double seconds, SolverArguments& arguments) {
+solvers::TermsChanges SolverArguments::terms() const {
+  solvers::TermsChanges terms{.starts_apart = io::number_from_text<double>(starts_apart),
+                              .time_error = time_error};
+  for (const std::string& name : kinds) {
+    if (!terms.kinds) terms.kinds.emplace().fill(false);
+    terms.kinds->at(static_cast<std::size_t>(kind_from_string(name))) = true;
+  }
+  if (float_coordinates) terms.float_coordinates = true;
+  if (!times.empty()) {
+    terms.times = times == "bounds" ? fast::Times::bounds
+                  : times == "none" ? fast::Times::none
+                                    : fast::Times::estimates;
+  }
+  return terms;
+}
+
+void settle_query_limit(const Command& command, double seconds, SolverArguments& arguments) {
   constexpr double least_limit = 0.1, part = 1.0 / 60.0;
-  const CLI::Option* option = command.get_option_no_throw("--query-limit");
-  const bool is_given = option != nullptr && option->count() != 0;
-  if (is_given || !(seconds > 0.0)) return;
+  if (is_given(command, "--query-limit") || !(seconds > 0.0)) return;
   arguments.query_limit = std::min(arguments.query_limit, std::max(least_limit, part * seconds));
 }
 
@@ -88,12 +89,16 @@ std::vector<std::filesystem::path> SolverArguments::files() const {
 }
 
 solvers::ChildLimits SolverArguments::limits() const {
-  return {.memory_bytes = memory_limit, .may_fork = allow_processes};
+  solvers::ChildLimits limits{.may_fork = allow_processes};
+  if (memory_limit) {
+    limits.memory_bytes = static_cast<std::uint64_t>(*memory_limit * bytes_of_gibibyte);
+  }
+  return limits;
 }
 
 solvers::PluginOptions SolverArguments::loading() const {
   constexpr double least_limit = 10.0;  // the disk may be slow
-  return {.terms = terms,
+  return {.terms = terms(),
           .limits = limits(),
           .load_seconds = std::max(least_limit, query_limit),
           .stop = &io::interrupted()};
@@ -107,20 +112,17 @@ solvers::SolverProcessOptions SolverArguments::process() const {
   return {.query_limit_seconds = query_limit, .stop = &io::interrupted(), .limits = limits()};
 }
 
-void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArguments& arguments) {
-  const auto is_given = [&](const std::string& name) {
-    const CLI::Option* option = command.get_option_no_throw(name);
-    return option != nullptr && option->count() != 0;
-  };
+void settle_solver_options(const Command& command, bool built_in_set, SolverArguments& arguments) {
   if (built_in_set) {
-    if (!is_given("--max-checks")) {
-      arguments.options.max_checks = is_given("--degree") ? curved_max_checks : built_in_max_checks;
+    if (!is_given(command, "--max-checks")) {
+      arguments.options.max_checks =
+          is_given(command, "--degree") ? curved_max_checks : built_in_max_checks;
     }
     return;
   }
   for (const std::string name : {"--exact", "--query-limit", "--memory-limit", "--allow-processes",
                                  "--show-output", "--tolerance", "--max-checks"}) {
-    if (arguments.empty() && is_given(name)) {
+    if (arguments.empty() && is_given(command, name)) {
       throw std::invalid_argument(name + " needs a solver: add --method or --plugin");
     }
   }
@@ -214,7 +216,7 @@ Solvers::Solvers(Files& files, const SolverArguments& arguments, MethodHost host
       terms.kinds.at(static_cast<std::size_t>(group.kind)) = true;
     }
     add(solvers::recorded_solver(path.string(), results_.back().answers,
-                                 solvers::changed(terms, arguments.terms)),
+                                 solvers::changed(terms, arguments.terms())),
         arguments.exact);
   }
 }

@@ -3,11 +3,11 @@
 /// \file
 /// The solvers of a command line: built-in methods, plugins, recorded answers.
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,13 +37,14 @@ struct SolverArguments {
   /// Wall-clock seconds for a query; 0: no limit.
   double query_limit = fuzz::FuzzOptions{}.query_limit_seconds;
   bool exact = false;
-  /// The terms of plugins and of recorded answers, where they differ from the stated ones.
-  solvers::TermsChanges terms = {};
-  /// The text of --starts-apart, before it is in the terms.
-  std::vector<std::string> kinds;  ///< as in `terms`
+  // The terms of plugins and of recorded answers, where they differ from the stated ones.
+  std::vector<std::string> kinds = {};
+  bool float_coordinates = false;
   std::string starts_apart = {};
-  /// Memory limit of a solver's process in bytes; 0: no limit.
-  std::uint64_t memory_limit = solvers::ChildLimits{}.memory_bytes;
+  std::string times = {};
+  std::optional<double> time_error = {};
+  /// Memory limit of a solver's process in GiB, if not the usual one; 0: no limit.
+  std::optional<double> memory_limit = {};
   bool allow_processes = false;
   bool show_output = false;
   fast::MethodOptions options;
@@ -54,6 +55,9 @@ struct SolverArguments {
 
   /// The input files.
   [[nodiscard]] std::vector<std::filesystem::path> files() const;
+
+  /// The changes of terms that these options ask for.
+  [[nodiscard]] solvers::TermsChanges terms() const;
 
   /// The limits of a solver's process.
   [[nodiscard]] solvers::ChildLimits limits() const;
@@ -72,23 +76,23 @@ struct SolverArguments {
 
 /// Adds --method, the options of add_plugin_option(), --query-limit, --memory-limit,
 /// --allow-processes and --show-output; the arguments must live until the command line is parsed.
-void add_named_solver_options(CLI::App& command, SolverArguments& arguments);
+void add_named_solver_options(Command& command, SolverArguments& arguments);
 
 /// Adds these, --tolerance and --max-checks.
-void add_solver_options(CLI::App& command, SolverArguments& arguments);
+void add_solver_options(Command& command, SolverArguments& arguments);
 
 /// Adds --plugin, and the terms of the promises of plugins: --answers-kinds, --starts-apart,
 /// --float-coordinates, --times, --time-error.
-void add_plugin_option(CLI::App& command, SolverArguments& arguments);
+void add_plugin_option(Command& command, SolverArguments& arguments);
 
 /// Without --query-limit, a query may take no more than a sixtieth of the run if that is less than
 /// the usual limit. \param seconds of the run; 0: no limit
-void settle_query_limit(const CLI::App& command, double seconds, SolverArguments& arguments);
+void settle_query_limit(const Command& command, double seconds, SolverArguments& arguments);
 
 /// Adjusts the arguments of a parsed command line: on the built-in set, which has the most
 /// difficult queries, methods take fewer steps unless --max-checks is given.
 /// \throws std::invalid_argument if an option of solvers is given without a solver.
-void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArguments& arguments);
+void settle_solver_options(const Command& command, bool built_in_set, SolverArguments& arguments);
 
 /// Prints a solver's output on standard error if requested, each line after its name, printable
 /// (verify/io/printable.hpp); otherwise a hint. Nothing without output.

@@ -19,81 +19,40 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Progress over sources of equal weight.
-class TotalProgress {
- public:
-  TotalProgress(const std::string& title, std::size_t sources)
-      : bar_(title), sources_(static_cast<double>(sources)) {}
-
-  /// The callback for the progress of source number `index`.
-  [[nodiscard]] std::function<void(double)> of(std::size_t index) {
-    return [this, index](double fraction) {
-      bar_.update((static_cast<double>(index) + fraction) / sources_);
-    };
-  }
-
- private:
-  io::ProgressBar bar_;
-  double sources_;
+/// A source that is not open yet.
+struct Unopened {
+  fs::path name;
+  std::function<std::unique_ptr<data::QuerySource>()> open;
 };
 
-/// A family of the built-in set, and a kind of query that it has.
-struct BuiltInSource {
-  generate::Family family;
-  Kind kind;
-};
-
-std::vector<BuiltInSource> built_in_sources(const SourceArguments& arguments) {
-  std::vector<BuiltInSource> sources;
-  for (const generate::Family& family :
-       generate::families(arguments.separation.given(), arguments.degrees)) {
-    for (const Kind kind : kinds_of(arguments.kind)) {
-      if (generate::supports(family, kind)) sources.push_back({family, kind});
+/// The families of the built-in set, with the kinds that they have, of the shard.
+std::vector<Unopened> built_in_sources(const SourceArguments& arguments) {
+  const Separation separation = arguments.separation.given();
+  const std::vector<Kind> kinds = kinds_of(arguments.kind);
+  for (const Kind kind : kinds) require_kind(*arguments.command, kind);
+  std::vector<Unopened> sources;
+  std::size_t number = 0;
+  for (const generate::Family& family : generate::families(separation, arguments.degrees)) {
+    for (const Kind kind : kinds) {
+      if (!generate::supports(family, kind) || !arguments.shard.contains(number++)) continue;
+      sources.push_back({family.name, [=, &arguments] {
+                           return generate::open_family(family, kind, arguments.seed,
+                                                        arguments.count, separation);
+                         }});
     }
   }
-  if (sources.empty()) refuse_kind(arguments.kind);
+  if (number == 0) refuse_kind(arguments.kind);
   return sources;
 }
-
-void for_each_family(const SourceArguments& arguments, const SourceHandlers& handlers) {
-  const Separation separation = arguments.separation.given();
-  require_contact_for("--min-separation", !is_zero(separation), arguments.kind);
-  const std::vector<BuiltInSource> all = built_in_sources(arguments);
-  std::vector<BuiltInSource> sources;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (arguments.shard.contains(i)) sources.push_back(all[i]);
-  }
-  TotalProgress progress(handlers.title, sources.size());
-  for (std::size_t i = 0; i < sources.size() && !handlers.stopped(); ++i) {
-    const auto& [family, kind] = sources[i];
-    if (handlers.begin) handlers.begin(sources.size() - i);
-    handlers.use(*generate::open_family(family, kind, arguments.seed, arguments.count, separation),
-                 progress.of(i));
-  }
-}
-
-/// Reports the files that a search skips, up to a maximum number.
-class LeftOutReport {
- public:
-  void add(const io::DatasetError& left_out) {
-    if (++count_ <= most_named) report_warning(left_out.what());
-  }
-
-  void finish() const {
-    if (count_ > most_named) report_warning(fmt::format("left out: {} more", count_ - most_named));
-  }
-
- private:
-  static constexpr std::size_t most_named = 8;
-
-  std::size_t count_ = 0;
-};
 
 /// The dataset files of all paths, each once, those of the shard; empty if stopped.
 std::vector<fs::path> find_files(const SourceArguments& arguments, Files& record,
                                  const SourceHandlers& handlers) {
-  LeftOutReport left_out;
-  const data::LeftOut on_left_out = [&](const io::DatasetError& error) { left_out.add(error); };
+  static constexpr std::size_t most_named = 8;
+  std::size_t left_out = 0;
+  const data::LeftOut on_left_out = [&](const io::DatasetError& error) {
+    if (++left_out <= most_named) report_warning(error.what());
+  };
   std::vector<fs::path> files;
   std::set<fs::path> seen;
   for (const fs::path& path : arguments.paths) {
@@ -108,27 +67,25 @@ std::vector<fs::path> find_files(const SourceArguments& arguments, Files& record
       if (handlers.stopped()) return {};
     }
   }
-  left_out.finish();
+  if (left_out > most_named)
+    report_warning(fmt::format("left out: {} more", left_out - most_named));
   return files;
 }
 
-void for_each_file(const SourceArguments& arguments, Files& record,
-                   const SourceHandlers& handlers) {
+std::vector<Unopened> dataset_files(const SourceArguments& arguments, Files& record,
+                                    const SourceHandlers& handlers) {
   data::DatasetOptions options;
   if (!arguments.kind.empty()) options.kind = kind_from_string(arguments.kind);
   options.round = arguments.round;
   options.keep_going = arguments.keep_going;
   options.on_skip = [](const io::DatasetError& error) { report_error(error.what()); };
   const std::vector<fs::path> files = find_files(arguments, record, handlers);
-  TotalProgress progress(handlers.title, files.size());
-  for (std::size_t i = 0; i < files.size() && !handlers.stopped(); ++i) {
-    if (handlers.begin) handlers.begin(files.size() - i);
-    try {
-      handlers.use(*data::open_dataset(files[i], options), progress.of(i));
-    } catch (const io::DatasetError& error) {
-      handlers.fail(files[i], error);
-    }
+  require_kinds(*arguments.command, files, options.kind);
+  std::vector<Unopened> sources;
+  for (const fs::path& file : files) {
+    sources.push_back({file, [=] { return data::open_dataset(file, options); }});
   }
+  return sources;
 }
 
 }  // namespace
@@ -144,8 +101,20 @@ std::vector<Kind> kinds_of(const std::string& option) {
   return {kind_from_string(option)};
 }
 
-void add_path_options(CLI::App& command, SourceArguments& arguments) {
-  command.option_defaults()->group("Input");
+void require_kinds(const Command& command, std::span<const fs::path> files,
+                   std::optional<Kind> kind) {
+  for (const fs::path& file : files) {
+    try {
+      require_kind(command, kind ? *kind : data::kind_from_path(file), file);
+    } catch (const io::DatasetError&) {
+      // Reported when it is opened, or its contents tell.
+    }
+  }
+}
+
+void add_path_options(Command& command, SourceArguments& arguments) {
+  arguments.command = &command;
+  begin_group(command, "Input");
   add_option(command, "PATH", arguments.paths);
   add_option(command, "--kind", arguments.kind);
   add_option(command, "--round", arguments.round);
@@ -154,7 +123,7 @@ void add_path_options(CLI::App& command, SourceArguments& arguments) {
   add_option(command, "--seed", arguments.seed);
 }
 
-void add_source_options(CLI::App& command, SourceArguments& arguments) {
+void add_source_options(Command& command, SourceArguments& arguments) {
   add_path_options(command, arguments);
   add_option(command, "--count", arguments.count);
   add_option(command, "--degree", arguments.degrees);
@@ -165,8 +134,7 @@ Separation separation_for(const SourceArguments& arguments, const data::QuerySou
   try {
     const Separation settled = arguments.separation.settle(source.recorded_separation());
     if (is_zero(settled) || !is_element(source.kind())) return settled;
-    throw std::invalid_argument(contact_alone("--min-separation", source.kind()) +
-                                ": leave it out, or name other files");
+    throw std::invalid_argument("its separation.json has a distance, which elements have not");
   } catch (const std::invalid_argument& error) {
     throw io::DatasetError(source.name(), {}, error.what());
   }
@@ -175,10 +143,19 @@ Separation separation_for(const SourceArguments& arguments, const data::QuerySou
 void for_each_source(const SourceArguments& arguments, Files& files,
                      const SourceHandlers& handlers) {
   until_interrupted([&] {
-    if (arguments.built_in_set()) {
-      for_each_family(arguments, handlers);
-    } else {
-      for_each_file(arguments, files, handlers);
+    const std::vector<Unopened> sources = arguments.built_in_set()
+                                              ? built_in_sources(arguments)
+                                              : dataset_files(arguments, files, handlers);
+    io::ProgressBar bar(handlers.title);
+    for (std::size_t i = 0; i < sources.size() && !handlers.stopped(); ++i) {
+      if (handlers.begin) handlers.begin(sources.size() - i);
+      try {
+        handlers.use(*sources[i].open(), [&](double fraction) {
+          bar.update((static_cast<double>(i) + fraction) / static_cast<double>(sources.size()));
+        });
+      } catch (const io::DatasetError& error) {
+        handlers.fail(sources[i].name, error);
+      }
     }
   });
 }
@@ -297,12 +274,12 @@ NamedGroups collision_groups(Files& files, const GroupArguments& arguments, cons
   return {std::move(result), std::move(groups.names)};
 }
 
-void add_thickness_options(CLI::App& command, GroupArguments& arguments) {
+void add_thickness_options(Command& command, GroupArguments& arguments) {
   add_option(command, "--radii", arguments.radii_file);
   add_option(command, "--separations", arguments.separations_file);
 }
 
-void add_group_options(CLI::App& command, GroupArguments& arguments) {
+void add_group_options(Command& command, GroupArguments& arguments) {
   add_option(command, "--groups", arguments.file);
   add_option(command, "--apart", arguments.apart);
 }

@@ -4,7 +4,6 @@
 /// The inputs of a command: sources of queries from paths or the built-in set, and frames of
 /// a mesh.
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -40,6 +39,7 @@ struct Shard {
 
 /// The queries of the command line, and the number of cores.
 struct SourceArguments {
+  const Command* command = nullptr;  ///< whose arguments these are
   std::vector<std::filesystem::path> paths;
   std::string kind;
   bool round = false;
@@ -65,12 +65,17 @@ struct SourceArguments {
 /// The kinds that --kind asks for: without it, those about contact.
 [[nodiscard]] std::vector<Kind> kinds_of(const std::string& option);
 
+/// \throws std::invalid_argument as require_kind, if it is thrown for a file of this kind, which by
+/// default its path tells.
+void require_kinds(const Command& command, std::span<const std::filesystem::path> files,
+                   std::optional<Kind> kind);
+
 /// Adds PATH, --kind, --round, --keep-going, --threads and --seed; the arguments must live until
 /// the command line is parsed.
-void add_path_options(CLI::App& command, SourceArguments& arguments);
+void add_path_options(Command& command, SourceArguments& arguments);
 
 /// Adds these and the others that fill the arguments.
-void add_source_options(CLI::App& command, SourceArguments& arguments);
+void add_source_options(Command& command, SourceArguments& arguments);
 
 /// The callbacks of a command for its sources.
 struct SourceHandlers {
@@ -88,7 +93,7 @@ struct SourceHandlers {
 };
 
 /// The separation of a source: from the options, or recorded with the source.
-/// \throws DatasetError naming both if they contradict each other, or for elements.
+/// \throws DatasetError naming both if they contradict each other, or if elements have one.
 [[nodiscard]] Separation separation_for(const SourceArguments& arguments,
                                         const data::QuerySource& source);
 
@@ -96,6 +101,7 @@ struct SourceHandlers {
 /// separation, if one is requested), or the dataset files of all paths, each once. Queries skipped
 /// with keep_going, and files that a search of folders skips, are reported on standard error. An
 /// interrupt ends it at any point.
+/// \throws std::invalid_argument before any work as require_kind.
 /// \param files records the datasets and their companions. \throws std::runtime_error as Files.
 void for_each_source(const SourceArguments& arguments, Files& files,
                      const SourceHandlers& handlers);
@@ -143,10 +149,10 @@ struct GroupArguments {
 };
 
 /// Adds --radii and --separations, the thickness of groups. As below.
-void add_thickness_options(CLI::App& command, GroupArguments& arguments);
+void add_thickness_options(Command& command, GroupArguments& arguments);
 
 /// Adds --groups and --apart. The arguments must live until the command line is parsed.
-void add_group_options(CLI::App& command, GroupArguments& arguments);
+void add_group_options(Command& command, GroupArguments& arguments);
 
 /// The requested groups of a mesh, by their numbers.
 struct NamedGroups {

@@ -38,7 +38,7 @@ struct Arguments {
   SeparationArguments separation;
   jobs::StepCheckOptions check;
   GroupArguments groups;
-  bool find_intersections = true;
+  bool no_intersections = false;
   std::string json_file;
   std::string csv_file;
   std::string proof_file;
@@ -50,10 +50,10 @@ class StepRun {
  public:
   explicit StepRun(const Arguments& arguments)
       : json_(files_, arguments.json_file),
-        csv_(files_, arguments.csv_file),
+        csv_(files_, arguments.csv_file, report::step_csv_header()),
         proof_(files_, arguments.proof_file, exact::step_certificates_header()),
         view_(files_, arguments.view_file),
-        find_intersections_(arguments.find_intersections),
+        find_intersections_(!arguments.no_intersections),
         options_(arguments.check),
         frames_(open_frames(files_, arguments.frames)) {
     if (frames_->count() < 2) {
@@ -82,7 +82,6 @@ class StepRun {
   }
 
   Status run() {
-    if (csv_) csv_.write(report::step_csv_header());
     io::ProgressBar bar("step");
     const std::size_t count = frames_->count();
     mesh::Vertices before;
@@ -174,7 +173,7 @@ class StepRun {
       if (lacks_proof() || report_.interrupted) {
         proof_.close_incomplete();
       } else {
-        proof_.close(exact::step_certificates_closing_line(report_.steps.size()));
+        proof_.complete(exact::step_certificates_closing_line(report_.steps.size()));
       }
     }
     json_.complete_with([this] { return io::json_document(report::to_json(report_)); });
@@ -189,7 +188,7 @@ class StepRun {
   Files files_;
   Output json_;
   Output csv_;
-  CertificatesFile proof_;
+  Output proof_;
   ViewFile view_;
   bool shows_contact_ = false;
   bool find_intersections_;
@@ -199,30 +198,29 @@ class StepRun {
   report::StepReport report_;
 };
 
-void add_input_options(CLI::App& command, Arguments& arguments) {
-  command.option_defaults()->group("Input");
+void add_input_options(Command& command, Arguments& arguments) {
+  begin_group(command, "Input");
   add_option(command, "frames", arguments.frames);
   add_separation_options(command, arguments.separation);
   add_group_options(command, arguments.groups);
   add_thickness_options(command, arguments.groups);
 }
 
-void add_step_options(CLI::App& command, Arguments& arguments) {
-  command.option_defaults()->group("Question");
+void add_step_options(Command& command, Arguments& arguments) {
+  begin_group(command, "Question");
   jobs::StepQuestion& question = arguments.check.question;
   const auto asks = [&question](jobs::StepQuestion asked) {
-    return [&question, asked] { question = asked; };
+    return std::function<void()>([&question, asked] { question = asked; });
   };
-  CLI::Option* const all = add_option(command, "--all", asks(jobs::StepQuestion::all));
-  CLI::Option* const earliest =
-      add_option(command, "--earliest", asks(jobs::StepQuestion::earliest))->excludes(all);
-  add_option(command, "--free", asks(jobs::StepQuestion::free))->excludes(all)->excludes(earliest);
+  add_option(command, "--all", asks(jobs::StepQuestion::all));
+  add_option(command, "--earliest", asks(jobs::StepQuestion::earliest));
+  add_option(command, "--free", asks(jobs::StepQuestion::free));
   add_option(command, "--candidates", arguments.check.count_candidates);
-  add_option(command, "--no-intersections", [&arguments] { arguments.find_intersections = false; });
-  CLI::Option* const t_max = add_option(command, "--t-max", arguments.check.step.t_max);
-  add_option(command, "--alpha", arguments.check.alpha)->excludes(t_max);
+  add_option(command, "--no-intersections", arguments.no_intersections);
+  add_option(command, "--t-max", arguments.check.step.t_max);
+  add_option(command, "--alpha", arguments.check.alpha);
   add_option(command, "--threads", arguments.check.step.max_threads);
-  command.option_defaults()->group("Output");
+  begin_group(command, "Output");
   add_option(command, "--csv", arguments.csv_file);
   add_option(command, "--prove", arguments.proof_file);
   add_option(command, "--json", arguments.json_file);
@@ -231,10 +229,10 @@ void add_step_options(CLI::App& command, Arguments& arguments) {
 
 }  // namespace
 
-void add(CLI::App& app, Status& status) {
+void add(Command& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("step", "Find the collisions in the steps of a simulation, exactly");
+  Command* command =
+      add_command(app, "step", "Find the collisions in the steps of a simulation, exactly");
   add_input_options(*command, *arguments);
   add_step_options(*command, *arguments);
   set_help(
@@ -250,7 +248,7 @@ void add(CLI::App& app, Status& status) {
       "Exit status: 0 free of collisions and inversions, 1 one of these or a frame that intersects "
       "itself, 2 "
       "bad input or usage, 130 interrupted (results so far are written).");
-  command->callback([arguments, &status] { status = StepRun(*arguments).run(); });
+  set_action(*command, [arguments, &status] { status = StepRun(*arguments).run(); });
 }
 
 }  // namespace touchstone::verify::cli::step_command

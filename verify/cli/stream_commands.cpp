@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "touchstone/certificate_text.hpp"
 #include "touchstone/number.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
@@ -112,9 +113,9 @@ class StreamRun {
         proof_options_(proof_options(arguments)),
         solvers_(files_, asked_by(arguments)),
         json_(files_, arguments.json_file),
-        truth_(files_, arguments.truth_file),
-        answers_(files_, arguments.answers_file),
-        proof_(files_, arguments.proof_file),
+        truth_(files_, arguments.truth_file, report::truth_header()),
+        answers_(files_, arguments.answers_file, solvers::answers_header()),
+        proof_(files_, arguments.proof_file, exact::certificates_header()),
         view_(files_, arguments.view_file),
         new_baseline_(files_, arguments.writes_baseline ? arguments.baseline_file : ""),
         badge_(files_, arguments.badge_file) {
@@ -123,11 +124,7 @@ class StreamRun {
           fmt::format("--badge: it shows one solver (--method, --plugin), and this run judges {}",
                       solvers_.all().size()));
     }
-    require_contact_for("--view", view_ && arguments.sources.built_in_set(),
-                        arguments.sources.kind);
     read_baseline();
-    truth_.write(report::truth_header());
-    answers_.write(solvers::answers_header());
     for (const solvers::Solver* solver : solvers_.all()) {
       sum_.methods.push_back(jobs::result_of(*solver));
     }
@@ -285,7 +282,7 @@ class StreamRun {
     }
     truth_.close();
     answers_.close();
-    proof_.close(sum_.proofs.certificates());
+    close_certificates(proof_, sum_.proofs.certificates());
     write_results(
         json_, to_json(), arguments_.sources, [this] { return status(); },
         !sum_.interrupted && (sum_.errors == 0 || arguments_.sources.keep_going));
@@ -481,7 +478,7 @@ class StreamRun {
   Output json_;
   Output truth_;
   Output answers_;
-  CertificatesFile proof_;
+  Output proof_;
   ViewFile view_;
   Output new_baseline_;
   Output badge_;
@@ -497,8 +494,8 @@ class StreamRun {
 };
 
 /// Runs the command after its line is parsed.
-void set_run(CLI::App& command, const std::shared_ptr<Arguments>& arguments, Status& status) {
-  command.callback([arguments, &command, &status] {
+void set_run(Command& command, const std::shared_ptr<Arguments>& arguments, Status& status) {
+  set_action(command, [arguments, &command, &status] {
     settle_solver_options(command, arguments->sources.built_in_set(), arguments->solvers);
     settle_query_limit(command, arguments->seconds, arguments->solvers);
     set_shard(command, arguments->shard, arguments->sources);
@@ -508,24 +505,24 @@ void set_run(CLI::App& command, const std::shared_ptr<Arguments>& arguments, Sta
 
 }  // namespace
 
-void certify_command::add(CLI::App& app, Status& status) {
+void certify_command::add(Command& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "certify", "Decide queries exactly; compare answers and solvers with the truth");
+  Command* command = add_command(
+      app, "certify", "Decide queries exactly; compare answers and solvers with the truth");
   add_source_options(*command, arguments->sources);
   add_option(*command, "--shard", arguments->shard);
   add_solver_options(*command, arguments->solvers);
   add_option(*command, "--results", arguments->solvers.results);
   add_option(*command, "--exact", arguments->solvers.exact);
-  add_option(*command, "--seconds", arguments->seconds)->excludes("--shard");
-  command->option_defaults()->group("Output");
+  add_option(*command, "--seconds", arguments->seconds);
+  begin_group(*command, "Output");
   add_option(*command, "--json", arguments->json_file);
   add_option(*command, "--truth", arguments->truth_file);
   add_option(*command, "--prove", arguments->proof_file);
   add_option(*command, "--view", arguments->view_file);
   add_option(*command, "--table", arguments->table);
-  add_option(*command, "--baseline", arguments->baseline_file)->excludes("--shard");
-  add_option(*command, "--write-baseline", arguments->writes_baseline)->needs("--baseline");
+  add_option(*command, "--baseline", arguments->baseline_file);
+  add_option(*command, "--write-baseline", arguments->writes_baseline);
   add_option(*command, "--badge", arguments->badge_file);
   set_help(*command,
            "touchstone certify data/handcrafted --json result.json\n"
@@ -537,16 +534,16 @@ void certify_command::add(CLI::App& app, Status& status) {
   set_run(*command, arguments, status);
 }
 
-void solve_command::add(CLI::App& app, Status& status) {
+void solve_command::add(Command& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   arguments->preset = Preset::solve;
-  CLI::App* command =
-      app.add_subcommand("solve", "Write the answers of a solver to all queries as CSV");
+  Command* command =
+      add_command(app, "solve", "Write the answers of a solver to all queries as CSV");
   add_source_options(*command, arguments->sources);
   add_option(*command, "--shard", arguments->shard);
   add_solver_options(*command, arguments->solvers);
   add_option(*command, "--t-max", arguments->solvers.options.t_max);
-  command->option_defaults()->group("Output");
+  begin_group(*command, "Output");
   add_option(*command, "--out", arguments->answers_file);
   add_option(*command, "--json", arguments->json_file);
   set_help(*command, "touchstone solve --plugin ./libsolver.so data/handcrafted --out answers.csv",
@@ -555,14 +552,14 @@ void solve_command::add(CLI::App& app, Status& status) {
   set_run(*command, arguments, status);
 }
 
-void prove_command::add(CLI::App& app, Status& status) {
+void prove_command::add(Command& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   arguments->preset = Preset::prove;
-  CLI::App* command =
-      app.add_subcommand("prove", "Write a proof of each verdict, for touchstone-check");
+  Command* command =
+      add_command(app, "prove", "Write a proof of each verdict, for touchstone-check");
   add_source_options(*command, arguments->sources);
   add_option(*command, "--shard", arguments->shard);
-  command->option_defaults()->group("Output");
+  begin_group(*command, "Output");
   add_option(*command, "--prove", arguments->proof_file);
   add_option(*command, "--claim", arguments->claim);
   add_option(*command, "--width", arguments->width);

@@ -39,6 +39,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t longest_script = std::size_t{64} << 20U;
 
 struct Arguments {
+  const Command* command = nullptr;
   std::vector<fs::path> paths;
   std::vector<fs::path> step;
   GroupArguments groups;
@@ -83,29 +84,21 @@ std::vector<view::ViewedQuery> read(const Arguments& arguments, Files& files) {
   view::QueryFileOptions options = arguments.files;
   if (!arguments.kind.empty()) options.kind = kind_from_string(arguments.kind);
   std::vector<view::ViewedQuery> queries;
-  std::vector<std::string> left_out;
-  options.on_left_out = [&](const std::string& label) { left_out.push_back(label); };
   if (!arguments.points.empty()) {
     if (!options.kind) throw std::invalid_argument("--points needs --kind");
     queries.push_back(
         {.label = "points on the command line",
          .query = base::AnyQuery(*options.kind, view::parse_points(arguments.points))});
   }
-  for (const fs::path& path : data::find_datasets(arguments.paths)) {
+  const std::vector<fs::path> paths = data::find_datasets(arguments.paths);
+  require_kinds(*arguments.command, paths, options.kind);
+  for (const fs::path& path : paths) {
     files.add_dataset(path);
     if (queries.size() == arguments.files.most) break;
     options.most = arguments.files.most - queries.size();
     for (view::ViewedQuery& query : view::read_queries(path, options)) {
       queries.push_back(std::move(query));
     }
-  }
-  if (!left_out.empty()) {
-    const std::string note = fmt::format(
-        "left out: {} queries about elements, the first {}: view draws vertex-face and edge-edge "
-        "alone",
-        left_out.size(), left_out.front());
-    if (queries.empty() && arguments.step.empty()) throw std::invalid_argument(note);
-    report_warning(note);
   }
   for (view::ViewedQuery& query : queries) {
     query.separation = arguments.separation.settle(query.separation);
@@ -156,8 +149,9 @@ Status run(const Arguments& arguments) {
   return io::interrupted() ? Status::interrupted : Status::all_well;
 }
 
-void add_options(CLI::App& command, Arguments& arguments) {
-  command.option_defaults()->group("Input");
+void add_options(Command& command, Arguments& arguments) {
+  arguments.command = &command;
+  begin_group(command, "Input");
   add_option(command, "PATH", arguments.paths);
   add_option(command, "--step", arguments.step);
   add_group_options(command, arguments.groups);
@@ -170,16 +164,16 @@ void add_options(CLI::App& command, Arguments& arguments) {
   add_separation_options(command, arguments.separation);
   add_solver_options(command, arguments.solvers);
   add_option(command, "--exact", arguments.solvers.exact);
-  command.option_defaults()->group("Output");
+  begin_group(command, "Output");
   add_option(command, "--live", arguments.live_file);
   add_option(command, "--out", arguments.out_file);
 }
 
 }  // namespace
 
-void add(CLI::App& app, Status& status) {
+void add(Command& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("view", "Write an HTML viewer of queries");
+  Command* command = add_command(app, "view", "Write an HTML viewer of queries");
   add_options(*command, *arguments);
   set_help(
       *command,
@@ -191,7 +185,7 @@ void add(CLI::App& app, Status& status) {
       "impact, a certificate, and the answers of the solvers; without --method and --plugin, of "
       "those that promise something.\n"
       "Exit status: 0 the page is written, 2 bad input or usage, 130 interrupted.");
-  command->callback([arguments, command, &status] {
+  set_action(*command, [arguments, command, &status] {
     settle_solver_options(*command, true, arguments->solvers);
     status = run(*arguments);
   });

@@ -45,11 +45,14 @@ class Selection {
   }
   /// True if nothing more can be selected.
   [[nodiscard]] bool is_complete() const { return queries_.size() >= wanted(); }
-  /// Adds it, unless it is about an element.
+  /// \throws std::invalid_argument if it is about an element.
   void add(ViewedQuery query) {
-    if (!is_element(kind_of(query))) return queries_.push_back(std::move(query));
-    has_left_out_ = true;
-    if (options_.on_left_out) options_.on_left_out(query.label);
+    if (is_element(kind_of(query))) {
+      throw std::invalid_argument(fmt::format(
+          "view takes vertex-face and edge-edge alone, not a {}: name others by --index",
+          to_string(kind_of(query))));
+    }
+    queries_.push_back(std::move(query));
   }
 
   /// \throws DatasetError if there is none, or one that was named is not there
@@ -59,8 +62,7 @@ class Selection {
       throw io::DatasetError(path, {},
                              fmt::format("there is no query {}; it has {}", index, offered));
     }
-    if (queries_.empty() && !has_left_out_)
-      throw io::DatasetError(path, {}, "there is no query in it");
+    if (queries_.empty()) throw io::DatasetError(path, {}, "there is no query in it");
     return std::move(queries_);
   }
 
@@ -72,7 +74,6 @@ class Selection {
 
   QueryFileOptions options_;
   std::vector<ViewedQuery> queries_;
-  bool has_left_out_ = false;
 };
 
 // ---- Datasets -----------------------------------------------------------------------------------

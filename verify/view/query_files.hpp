@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -38,13 +37,11 @@ struct QueryFileOptions {
   std::optional<Kind> kind = std::nullopt;
   /// Round coordinates of datasets that are not doubles to the nearest double.
   bool round = false;
-  /// Called with the label of each query about an element, which is not drawn; may be null.
-  std::function<void(const std::string&)> on_left_out = nullptr;
 };
 
 /// Reads the queries.
 /// \throws DatasetError if the file's format is unknown, it cannot be read or is in error, it has
-/// none of the requested queries (drawn or left out), or the kind is unknown.
+/// none of the requested queries or one about an element, or the kind is unknown.
 [[nodiscard]] std::vector<ViewedQuery> read_queries(const std::filesystem::path& path,
                                                     const QueryFileOptions& options);
 

@@ -193,21 +193,6 @@ TEST(BoundTable, GivesTheSameInAnyNumberOfThreads) {
   }
 }
 
-TEST(BoundTable, ReportsProgressAndStops) {
-  DeriveOptions options = quick();
-  options.threads = 1;
-  std::vector<double> fractions;
-  options.progress = [&](double fraction) { fractions.push_back(fraction); };
-  static_cast<void>(derive(options));
-  EXPECT_TRUE(std::ranges::is_sorted(fractions));
-  EXPECT_EQ(fractions.size(), 41U);
-  EXPECT_EQ(fractions.back(), 1.0);
-  options.stop = [] { return true; };
-  const DeriveResult stopped = derive(options);
-  EXPECT_TRUE(stopped.stopped);
-  EXPECT_FALSE(stopped.rows.front().observed);
-}
-
 // ---- The published model ------------------------------------------------------------------------
 
 /// Seven digits of a number in [1e-6, 1e-5), rounded up as in the publication.

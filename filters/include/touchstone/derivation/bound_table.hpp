@@ -1,10 +1,9 @@
 #pragma once
 
 /// \file
-/// The table of all bounds, by each model, as `touchstone derive` prints it.
+/// The table of all bounds, by each model, as `touchstone-derive` prints it.
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -28,10 +27,6 @@ struct DeriveOptions {
   std::vector<Format> formats{double_format, float_format, double_double_format};
   WorstCaseOptions search;
   unsigned threads = 0;  ///< 0: one for each core
-  /// Called with the completed fraction, from 0 to 1, by any thread, one at a time.
-  std::function<void(double)> progress = [](double) {};
-  /// Called before each task. Returns true to skip the remaining ones.
-  std::function<bool()> stop = [] { return false; };
 };
 
 /// An expression in a precision. Bounds are multiples of u x^k. A bound that was not requested or
@@ -50,7 +45,6 @@ struct DeriveRow {
 struct DeriveResult {
   std::vector<DeriveRow> rows;
   bool gappa_missing = false;  ///< Gappa was asked for but cannot be run
-  bool stopped = false;
 };
 
 /// All rows of the catalogue.
