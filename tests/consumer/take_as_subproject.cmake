@@ -2,12 +2,11 @@
 # FetchContent, as far as configuring. With TOUCHSTONE_SOAK=1 in the environment also in other ways to build.
 #   cmake -DTOUCHSTONE=<source folder> -DWORK=<scratch folder> -P take_as_subproject.cmake
 set(most_objects 75)
-find_program(CCACHE ccache)
 
 # configure(NAME OPTION…): a project that takes this one.
 function(configure name)
   execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK}/user -B ${WORK}/${name} -G Ninja
-      -DTOUCHSTONE=${source} -DCMAKE_CXX_COMPILER_LAUNCHER=${CCACHE} ${ARGN}
+      -DTOUCHSTONE=${source} "-DCMAKE_CXX_COMPILER_LAUNCHER=${launcher}" ${ARGN}
     COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
@@ -43,6 +42,11 @@ endfunction()
 
 set(WORK "${WORK}/Bau für alle")
 set(source "${WORK}/Quelle dafür")
+set(launcher ${CMAKE_CURRENT_LIST_DIR}/brief.sh)
+find_program(CCACHE ccache)
+if(CCACHE)
+  list(APPEND launcher ${TOUCHSTONE}/cmake/compile.sh ${source})
+endif()
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 file(CREATE_LINK ${TOUCHSTONE} ${source} SYMBOLIC)
@@ -50,6 +54,7 @@ file(MAKE_DIRECTORY ${WORK}/user)
 file(COPY_FILE ${CMAKE_CURRENT_LIST_DIR}/subproject.cmake ${WORK}/user/CMakeLists.txt)
 take(FetchContent)
 take(add_subdirectory)
+configure(add_subdirectory -DTOUCHSTONE_UNITY_BUILD=ON -DCMAKE_CXX_FLAGS=-fpch-preprocess)  # compile.sh says why
 run(add_subdirectory)
 if(DEFINED ENV{TOUCHSTONE_SOAK})
   configure(no_type)
