@@ -60,7 +60,7 @@ constexpr std::string_view layer_lines = R"(
   fast/certified/fixed_point_vertices.hpp: fast/platform/ fast/mesh.hpp
   fast/certified/kernel.hpp: fast/certified/fixed_point_vertices.hpp fast/platform/ fast/mesh.hpp exact/query.hpp
   fast/certified/stages/: fast/certified/stages/ fast/certified/fixed_point_vertices.hpp fast/certified/kernel.hpp filters/ exact/query.hpp
-  fast/certified/curves/: fast/certified/curves/ fast/certified/stages/ fast/certified/kernel.hpp filters/ exact/query.hpp
+  fast/certified/curves/: fast/certified/curves/ fast/certified/stages/ fast/certified/kernel.hpp fast/platform/ filters/ exact/query.hpp
   fast/certified/: fast/certified/ fast/platform/ fast/certified.hpp fast/mesh.hpp filters/ exact/curved_query.hpp exact/query.hpp immintrin.h
   fast/distance/: fast/distance/ fast/certified/exact/ fast/platform/ fast/contacts.hpp fast/kernels.hpp fast/step.hpp filters/ exact/query.hpp Eigen/ arm_neon.h immintrin.h
   fast/intersections/: fast/intersections/ fast/broad_phase/ fast/certified/exact/ fast/distance/ fast/platform/ fast/mesh.hpp fast/intersections.hpp filters/ immintrin.h
@@ -133,7 +133,7 @@ constexpr std::string_view headers_without_test = R"(
   fast/certified/stages/: axis.hpp bisection.hpp conservative_advancement.hpp crossing.hpp determinant.hpp direction.hpp distance_enclosure.hpp inversion.hpp lanes.hpp moving_polygon.hpp moving_vectors.hpp only_zero.hpp orientation.hpp refinement.hpp single_precision.hpp
   fast/distance/: filter_on_lanes.hpp polygon_features.hpp
   fast/intersections/: filter_on_lanes.hpp orientation.hpp pair_filter.hpp pair_order.hpp pair_order_avx2.hpp triangle_contacts.hpp
-  fast/platform/: avx2_doubles.hpp avx2_floats.hpp avx512_doubles.hpp avx512_floats.hpp avx_rows.hpp floating_point_state.hpp neon_doubles.hpp neon_floats.hpp scalar_floats.hpp
+  fast/platform/: floating_point_state.hpp lanes.hpp lanes_avx2.hpp lanes_avx512.hpp lanes_neon.hpp
   fast/step/: codimensional.hpp thickness.hpp
   fast/tight_inclusion/: box_kernel_on_lanes.hpp curved_box_kernel.hpp
   adapters/tight_inclusion/: config.hpp

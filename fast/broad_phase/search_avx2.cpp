@@ -4,7 +4,7 @@
 #include <immintrin.h>
 
 #include "fast/broad_phase/search_on_lanes.hpp"
-#include "fast/platform/avx2_floats.hpp"
+#include "fast/platform/lanes_avx2.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -25,16 +25,8 @@ constexpr std::array<std::uint64_t, 256> make_places() {
 constexpr std::array<std::uint64_t, 256> places = make_places();
 
 struct Lanes {
-  using Value = SixteenFloats;
-  using Mask = SixteenMask;
-
-  static SixteenMask equal(const std::int32_t* values, std::int32_t value) {
-    const __m256i all = _mm256_set1_epi32(value);
-    const auto of_eight = [all](const std::int32_t* from) {
-      return EightMask{_mm256_castsi256_ps(_mm256_cmpeq_epi32(load_whole(from), all))};
-    };
-    return {of_eight(values), of_eight(values + 8)};
-  }
+  using Value = Avx2Lanes::Sixteen;
+  using Mask = Value::Mask;
 
   struct Words {
     __m256i low, high;

@@ -4,18 +4,14 @@
 #include <immintrin.h>
 
 #include "fast/broad_phase/search_on_lanes.hpp"
-#include "fast/platform/avx512_floats.hpp"
+#include "fast/platform/lanes_avx512.hpp"
 
 namespace touchstone::fast {
 namespace {
 
 struct Lanes {
-  using Value = Floats;
-  using Mask = FloatMask;
-
-  static FloatMask equal(const std::int32_t* values, std::int32_t value) {
-    return {_mm512_cmpeq_epi32_mask(_mm512_load_si512(values), _mm512_set1_epi32(value))};
-  }
+  using Value = Avx512Lanes::Sixteen;
+  using Mask = Value::Mask;
 
   static __m512i load_words(const void* from) { return _mm512_load_si512(from); }
   static void write(void* to, __m512i words, unsigned bits) {

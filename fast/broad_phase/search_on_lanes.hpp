@@ -29,7 +29,6 @@ namespace touchstone::fast::search {
 /// - load_words(from): sixteen numbers of 32 bits at an address aligned to 64;
 /// - write(to, words, bits): writes the words that the bits select, one after the other. It may
 ///   write sixteen;
-/// - equal(values, value): a mask of which of sixteen whole numbers are that value;
 /// - append<is_ordered>(to, number, numbers, bits): writes the pairs of a number with those of the
 ///   sixteen numbers that the bits select, if is_ordered the smaller one first, and returns the
 ///   end. It may write sixteen pairs.
@@ -206,7 +205,7 @@ class Search {
     Mask result = Mask::none();
     for (std::size_t i = 0; i < (of_edges ? 2U : 1U); ++i) {
       for (std::size_t k = 0; k < (of_edges ? 2U : 3U); ++k) {
-        result = result | Lanes::equal(others.vertices[k].data(), own.vertices[i][row]);
+        result = result | Mask::equal(others.vertices[k].data(), own.vertices[i][row]);
       }
     }
     return result.bits();

@@ -2,18 +2,14 @@
 
 #include "fast/broad_phase/search_on_lanes.hpp"
 #include "fast/broad_phase/words_one_by_one.hpp"
-#include "fast/platform/scalar_floats.hpp"
+#include "fast/platform/lanes_scalar.hpp"
 
 namespace touchstone::fast {
 namespace {
 
 struct Lanes : WordsOneByOne {
-  using Value = Floats;
-  using Mask = FloatMask;
-
-  static FloatMask equal(const std::int32_t* values, std::int32_t value) {
-    return each<FloatMask>([&](std::size_t i) { return values[i] == value ? -1 : 0; });
-  }
+  using Value = ScalarLanes::Sixteen;
+  using Mask = Value::Mask;
 };
 
 }  // namespace

@@ -99,12 +99,12 @@ const KernelOutput& search_curves(const Queries& queries, const CertifiedOptions
   thread_local KernelOutput output;
   const curved::Block block{queries, options.separation,
                             std::max(options.toi_tolerance, least_kernel_tolerance), options.t_max};
-  kernel.curved_axis(block, open);
+  kernel.curves->axis(block, open);
   output.separated_in_direction.count = output.one_sided.count = output.rejected.count = 0;
   output.impacts.count = output.undecided.count = 0;
   sort(queries, options.separation.distance, open, sorted, output.undecided);
   for (std::size_t form = 0; form < sorted.size(); ++form) {
-    kernel.curved_search(block, sorted[form], static_cast<curved::Denominators>(form), output);
+    kernel.curves->search(block, sorted[form], static_cast<curved::Denominators>(form), output);
   }
   return output;
 }

@@ -24,7 +24,9 @@ std::span<const CertifiedKernel* const> certified_kernels() {
           &neon_certified_kernel,
 #endif
       },
-      "certified kernel", rounds_its_products<CertifiedKernel>);
+      "certified kernel", [](const CertifiedKernel& kernel) {
+        return rounds_its_products(kernel) && rounds_its_products(*kernel.curves);
+      });
   return kernels;
 }
 

@@ -105,6 +105,21 @@ struct Block : Queries {
 /// A function that decides a block of queries or elements.
 using KernelFunction = void(const KernelInput& input, KernelOutput& output);
 
+/// The functions on curves of one instruction set (fast/certified/curves/stages.hpp).
+struct CurvedKernel {
+  InstructionSet instructions;
+  /// Lists the queries that no axis separates.
+  void (*axis)(const curved::Block& block, KernelOutput::List<std::uint32_t>& open);
+  /// Decides the queries of a list, with control polygons of one form; appends to the output.
+  void (*search)(const curved::Block& block, const KernelOutput::List<std::uint32_t>& queries,
+                 curved::Denominators denominators, KernelOutput& output);
+  double (*product_then_sum)(double a, double b, double c);
+};
+
+// One definition a file, each compiled for its instruction set (curves/kernel_*.cpp).
+extern const CurvedKernel scalar_curved_kernel, avx2_curved_kernel, avx512_curved_kernel,
+    neon_curved_kernel;
+
 /// The functions of one instruction set. All sets make the same decisions.
 struct CertifiedKernel {
   InstructionSet instructions;
@@ -113,14 +128,9 @@ struct CertifiedKernel {
   /// and the rejected ones, do not invert up to t_limit; those in `one_sided` are inverted at t=0;
   /// impacts are the first times of those with a positive volume at t=0.
   KernelFunction* invert;
-  /// Lists the queries on curves that no axis separates (fast/certified/curves/stages.hpp).
-  void (*curved_axis)(const curved::Block& block, KernelOutput::List<std::uint32_t>& open);
-  /// Decides the queries of a list, with control polygons of one form; appends to the output.
-  void (*curved_search)(const curved::Block& block,
-                        const KernelOutput::List<std::uint32_t>& queries,
-                        curved::Denominators denominators, KernelOutput& output);
-  /// a b + c on its lanes: certified_kernels() uses it to check that products are rounded before
-  /// they are added.
+  const CurvedKernel* curves;
+  /// a b + c on its lanes: certified_kernels() uses it, and that of the curves, to check that
+  /// products are rounded before they are added.
   double (*product_then_sum)(double a, double b, double c);
 };
 

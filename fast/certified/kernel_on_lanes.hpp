@@ -36,12 +36,11 @@
 ///
 /// Inversions of elements are decided by 3., 6. and 7. alone (stages/inversion.hpp).
 ///
-/// The stages for curves are in fast/certified/curves/stages.hpp.
+/// The stages for curves are kernels of their own (fast/certified/curves/stages.hpp).
 ///
 /// Queries that no stage decides remain undecided, as do those with coordinates that are not finite
 /// or too large for the bounds.
 
-#include "fast/certified/curves/stages.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/certified/stages/axis.hpp"
 #include "fast/certified/stages/bisection.hpp"
@@ -130,12 +129,12 @@ void decide(const KernelInput& input, KernelOutput& output) {
 namespace touchstone::fast {
 
 template <class Lanes>
-constexpr CertifiedKernel certified_kernel_on(InstructionSet instructions) {
+constexpr CertifiedKernel certified_kernel_on(InstructionSet instructions,
+                                              const CurvedKernel& curves) {
   return {.instructions = instructions,
           .decide = kernel::decide<Lanes>,
           .invert = kernel::invert<Lanes>,
-          .curved_axis = curved::axis_stage<Lanes>,
-          .curved_search = curved::search<Lanes>,
+          .curves = &curves,
           .product_then_sum = product_then_sum<Lanes>};
 }
 

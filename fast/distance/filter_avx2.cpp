@@ -2,20 +2,11 @@
 // instructions and called only on processors that have them.
 
 #include "fast/distance/filter_on_lanes.hpp"
-#include "fast/platform/avx2_doubles.hpp"
+#include "fast/platform/lanes_avx2.hpp"
 
 namespace touchstone::fast {
-namespace {
-
-struct Lanes {
-  using Value = touchstone::fast::Value;
-  using Mask = touchstone::fast::Mask;
-  static constexpr std::size_t width = 4;
-};
-
-}  // namespace
 
 extern const DistanceKernel avx2_distance_kernel;
-const DistanceKernel avx2_distance_kernel = distance_kernel_on<Lanes>(InstructionSet::avx2);
+const DistanceKernel avx2_distance_kernel = distance_kernel_on<Avx2Lanes>(InstructionSet::avx2);
 
 }  // namespace touchstone::fast

@@ -2,20 +2,12 @@
 // for these instructions and called only on processors that have them.
 
 #include "fast/distance/filter_on_lanes.hpp"
-#include "fast/platform/avx512_doubles.hpp"
+#include "fast/platform/lanes_avx512.hpp"
 
 namespace touchstone::fast {
-namespace {
-
-struct Lanes {
-  using Value = touchstone::fast::Value;
-  using Mask = touchstone::fast::Mask;
-  static constexpr std::size_t width = 8;
-};
-
-}  // namespace
 
 extern const DistanceKernel avx512_distance_kernel;
-const DistanceKernel avx512_distance_kernel = distance_kernel_on<Lanes>(InstructionSet::avx512);
+const DistanceKernel avx512_distance_kernel =
+    distance_kernel_on<Avx512Lanes>(InstructionSet::avx512);
 
 }  // namespace touchstone::fast

@@ -2,19 +2,21 @@
 // have them, and called only there.
 
 #include "fast/distance/filter_on_lanes.hpp"
-#include "fast/platform/scalar_doubles.hpp"
+#include "fast/platform/lanes_scalar.hpp"
 
 namespace touchstone::fast {
 namespace {
 
-/// a · b − product, with a single rounding (touchstone/filters/double_double.hpp).
-Value product_error(const Value& a, const Value& b, const Value& product) {
-  return Value(__builtin_fma(a.x, b.x, -product.x));
-}
+struct Fused : Portable {
+  static constexpr bool is_fused = true;
+  static double product_error(double a, double b, double product) {
+    return __builtin_fma(a, b, -product);
+  }
+};
 
 struct Lanes {
-  using Value = touchstone::fast::Value;
-  using Mask = touchstone::fast::Mask;
+  using Value = ValueOn<Fused, double, 1>;
+  using Mask = Value::Mask;
   static constexpr std::size_t width = 1;
 };
 

@@ -3,16 +3,12 @@
 
 #include "fast/intersections/filter_on_lanes.hpp"
 #include "fast/intersections/pair_order_avx2.hpp"
-#include "fast/platform/avx2_doubles.hpp"
+#include "fast/platform/lanes_avx2.hpp"
 
 namespace touchstone::fast {
 namespace {
 
-struct Lanes : pair_order::InOneVector {
-  using Value = touchstone::fast::Value;
-  using Mask = touchstone::fast::Mask;
-  static constexpr std::size_t width = 4;
-};
+struct Lanes : Avx2Lanes, pair_order::InOneVector {};
 
 }  // namespace
 

@@ -123,7 +123,7 @@ class Filter {
           const auto vertex = some[lane < last ? lane : last].vertices[k];
           rows[lane] = at[static_cast<std::size_t>(vertex)].data();
         }
-        x[k] = Value::load_points(rows.data());
+        x[k] = Lanes::load(rows);
       }
       work(some, (2U << last) - 1U, x);
     }

@@ -1,16 +1,12 @@
 // The filter of pairs of triangles in plain C++, a pair at a time.
 
 #include "fast/intersections/filter_on_lanes.hpp"
-#include "fast/platform/scalar_doubles.hpp"
+#include "fast/platform/lanes_scalar.hpp"
 
 namespace touchstone::fast {
 namespace {
 
-struct Lanes : pair_order::OneByOne {
-  using Value = touchstone::fast::Value;
-  using Mask = touchstone::fast::Mask;
-  static constexpr std::size_t width = 1;
-};
+struct Lanes : ScalarLanes, pair_order::OneByOne {};
 
 }  // namespace
 

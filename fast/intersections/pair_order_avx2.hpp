@@ -16,7 +16,7 @@ struct InOneVector {
   using Both = __m256i;
 
   static Both both(const ElementRow& a, const ElementRow& b) {
-    return _mm256_inserti128_si256(_mm256_castsi128_si256(load(a)), load(b), 1);
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(vertices_of(a)), vertices_of(b), 1);
   }
 
   static unsigned equal_vertices(const Both& both) {
@@ -40,7 +40,7 @@ struct InOneVector {
   }
 
  private:
-  static __m128i load(const ElementRow& row) {
+  static __m128i vertices_of(const ElementRow& row) {
     return _mm_loadu_si128(reinterpret_cast<const __m128i*>(row.data()));
   }
 };

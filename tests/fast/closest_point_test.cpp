@@ -9,7 +9,7 @@
 #include <cstddef>
 
 #include "fast/certified/exact/closest_point_parameters.hpp"
-#include "fast/platform/scalar_doubles.hpp"
+#include "fast/platform/lanes_scalar.hpp"
 #include "tests/support/contact_function.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
@@ -17,11 +17,7 @@
 namespace touchstone::fast::kernel::closest_point_test {
 namespace {
 
-/// A vector of one lane.
-struct Lanes {
-  using Mask = fast::Mask;
-  using Value = fast::Value;
-};
+using Lanes = ScalarLanes;
 
 using Point = Eigen::Vector3d;
 template <Kind kind>

@@ -24,7 +24,7 @@
 #include "fast/certified/exact/curved_polygon.hpp"
 #include "fast/kernels.hpp"
 #include "fast/method.hpp"
-#include "fast/platform/scalar_doubles.hpp"
+#include "fast/platform/lanes_scalar.hpp"
 #include "tests/faults/limb_products.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified_against_oracle.hpp"
@@ -451,18 +451,9 @@ TEST(CurvedSolver, DecidesWeightsOfAnySize) {
 // ---- The parts against exact values -------------------------------------------------------------
 
 /// One query in the one lane.
-struct Lanes {
-  using Value = fast::Value;
-  using Mask = fast::Mask;
-  static constexpr std::size_t width = 1;
-
-  static std::array<Value, 3> load(const std::array<const double*, width>& rows) {
-    return {Value(rows[0][0]), Value(rows[0][1]), Value(rows[0][2])};
-  }
-  static std::array<Value, 3> load_backwards(const std::array<const double*, width>& rows) {
-    return load(rows);
-  }
-};
+using Lanes = ScalarLanes;
+using Value = Lanes::Value;
+using Mask = Lanes::Mask;
 constexpr Kind of_face = Kind::vertex_face;
 using Polygons = curved::ControlPolygons<Lanes, of_face>;
 

@@ -14,17 +14,7 @@
 using __mmask8 = simde__mmask8;
 using __mmask16 = simde__mmask16;
 
-/// The intrinsics that this version of SIMDe lacks, by Intel's description: lanes move within
-/// halves.
-template <int order>
-simde__m512d permutex_pd(simde__m512d x) {
-  const simde__m256d low = simde_mm512_castpd512_pd256(x), high = simde_mm512_extractf64x4_pd(x, 1);
-  return simde_mm512_insertf64x4(
-      simde_mm512_castpd256_pd512(simde_mm256_permute4x64_pd(low, order)),
-      simde_mm256_permute4x64_pd(high, order), 1);
-}
-#define _mm512_permutex_pd(x, order) permutex_pd<(order)>(x)
-
+/// An intrinsic that this version of SIMDe lacks, by Intel's description.
 inline simde__m512i widened_to_64(simde__m256i x) {
   const simde__m256i_private from = simde__m256i_to_private(x);
   simde__m512i_private result;
@@ -33,14 +23,6 @@ inline simde__m512i widened_to_64(simde__m256i x) {
 }
 #undef _mm512_cvtepu32_epi64
 #define _mm512_cvtepu32_epi64(x) widened_to_64(x)
-
-inline simde__m512 rounded_to_float(simde__m512i x) {
-  const simde__m512i_private from = simde__m512i_to_private(x);
-  simde__m512_private result;
-  for (std::size_t i = 0; i < 16; ++i) result.f32[i] = static_cast<float>(from.i32[i]);
-  return simde__m512_from_private(result);
-}
-#define _mm512_cvtepi32_ps(x) rounded_to_float(x)
 
 /// Fused arithmetic: SIMDe rounds the product if the processor cannot fuse.
 inline simde__m512d fused_multiply_subtract(simde__m512d a, simde__m512d b, simde__m512d c) {

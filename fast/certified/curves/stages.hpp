@@ -53,7 +53,7 @@ inline bool is_apart_on_axis(const Block& block, const double* numbers) {
     for (std::size_t i = 0; i < moving_points; ++i) {
       const double* const from = numbers + (k * moving_points + i) * stride;
       const bool is_last = k == block.degree && i + 1 == moving_points && !block.is_rational;
-      const Row x = is_last ? Row::load_backwards(from) : Row::load(from);
+      const Row x = is_last ? Lanes::load_row_backwards(from) : Row::load(from);
       Row& least = i < firsts ? least_a : least_b;
       Row& most = i < firsts ? most_a : most_b;
       least = min(least, x);
@@ -71,8 +71,9 @@ inline bool is_apart_on_axis(const Block& block, const double* numbers) {
     if (!is_positive || !(weights - weights == 0.0)) return false;
   }
   const Row distance(block.separation.distance);
-  const bool is_apart = ((least_a - most_b > distance) | (least_b - most_a > distance)).any();
-  return is_apart & sum.is_finite();
+  const bool is_apart =
+      kernel::axes_of((least_a - most_b > distance) | (least_b - most_a > distance)) != 0;
+  return is_apart & kernel::is_finite_row(sum);
 }
 
 template <class Lanes>
@@ -568,3 +569,15 @@ void search(const Block& block, const KernelOutput::List<std::uint32_t>& queries
 }
 
 }  // namespace touchstone::fast::curved
+
+namespace touchstone::fast {
+
+template <class Lanes>
+constexpr CurvedKernel curved_kernel_on(InstructionSet instructions) {
+  return {.instructions = instructions,
+          .axis = curved::axis_stage<Lanes>,
+          .search = curved::search<Lanes>,
+          .product_then_sum = product_then_sum<Lanes>};
+}
+
+}  // namespace touchstone::fast

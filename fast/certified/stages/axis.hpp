@@ -128,7 +128,7 @@ class AxisStage {
     if (is_separated(rows, distance)) return true;
     if (input.t_limit == 1.0) return false;
     const auto axes = separating_until<kind, separated>(rows, distance, input.t_limit);
-    return axes.any() && sum_of(rows).is_finite();
+    return axes_of(axes) != 0 && is_finite_row(sum_of(rows));
   }
 
   static void find_open(const KernelInput& input, Indices& open) {
@@ -166,7 +166,7 @@ class AxisStage {
   static Rows load_rows(const Points& points) {
     Rows rows;
     for (std::size_t k = 0; k + 1 < query_points; ++k) rows[k] = Row::load(points[k]);
-    rows[7] = Source::may_read_behind ? Row::load(points[7]) : Row::load_backwards(points[7]);
+    rows[7] = Source::may_read_behind ? Row::load(points[7]) : Lanes::load_row_backwards(points[7]);
     return rows;
   }
 
@@ -177,8 +177,8 @@ class AxisStage {
         on_one_side(sides<kind, separated>(rows[0], rows[1], rows[2], rows[3], distance),
                     sides<kind, separated>(rows[4], rows[5], rows[6], rows[7], distance));
     // No && because the branch is unpredictable.
-    const bool on_some_axis = axes.any();
-    return on_some_axis & sum_of(rows).is_finite();
+    const bool on_some_axis = axes_of(axes) != 0;
+    return on_some_axis & is_finite_row(sum_of(rows));
   }
 };
 

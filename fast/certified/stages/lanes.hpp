@@ -4,12 +4,14 @@
 /// Common parts of the kernel's stages: lists of queries, marks of places in them, and
 /// loading the queries' points into lanes.
 ///
-/// `Lanes` is a type of the file of one instruction set, in an anonymous namespace. It has
+/// `Lanes` is a type of the file of one instruction set (fast/platform/lanes_*.hpp), in an
+/// anonymous namespace. It has
 /// - Value and Mask: a number and a truth value in each of its `width` lanes, one query a lane;
-/// - Row and RowMask: the same for the three coordinates of one point;
+/// - Row: the three coordinates of one point, and possibly an undefined fourth number;
 /// - Single and Rounded: a float and a whole number in each lane, of which there may be more;
-/// - load and load_backwards: the points at `width` addresses. load may read one number after a
-///   point, load_backwards one before it.
+/// - load and load_backwards: the points at `width` addresses. load and Row::load may read one
+/// number
+///   after a point, load_backwards and load_row_backwards one before it.
 ///
 /// Templates on Lanes or its Value are local to that file too, as is all code in the stages apart
 /// from expressions, so that no other file links code for its instruction set. Function templates
@@ -213,6 +215,17 @@ template <class Coordinate>
 inline Vector<DifferenceOf<Coordinate>> minus(const Vector<Coordinate>& a,
                                               const Vector<Coordinate>& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+/// The axes on which a comparison of rows is true, one bit each.
+template <class RowMask>
+inline unsigned axes_of(const RowMask& mask) {
+  return mask.bits() & 0b111U;
+}
+
+template <class Row>
+inline bool is_finite_row(const Row& row) {
+  return axes_of(row - row == Row(0.0)) == 0b111U;
 }
 
 /// The greatest magnitude of a component.
