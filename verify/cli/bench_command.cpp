@@ -99,6 +99,7 @@ std::pair<int, int> levels_of(const std::string& text) {
 
 std::vector<const generate::LevelFamily*> families_of(const std::vector<std::string>& names) {
   std::vector<const generate::LevelFamily*> chosen;
+  chosen.reserve(std::max(names.size(), generate::level_families().size()));
   for (const std::string& name : names) chosen.push_back(&generate::level_family(name));
   if (!names.empty()) return chosen;
   for (const generate::LevelFamily& family : generate::level_families()) chosen.push_back(&family);

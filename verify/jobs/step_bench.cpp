@@ -107,7 +107,7 @@ class StepMeasurement {
   }
 
   void repeat(Series& series) {
-    auto part = series.parts.begin();
+    Repetitions* part = series.parts.data();
     std::optional<fast::Step> step;
     (part++)->add([&] { step.emplace(step_with(series.threads)); });
     for (auto& count : candidates_) count = 0;
