@@ -146,7 +146,7 @@ constexpr std::string_view headers_without_test = R"(
   verify/io/: descriptor.hpp text_table.hpp
   verify/jobs/: prove.hpp work_time.hpp
   verify/judge/: fault.hpp
-  verify/solvers/: child_process.hpp
+  verify/solvers/: child_process.hpp published.hpp
 // tests/transcripts.
   verify/cli/: files.hpp options.hpp result_files.hpp sharded_run.hpp solver_options.hpp sources.hpp
   verify/report/: bench_report.hpp certify_report.hpp judgement_report.hpp step_report.hpp

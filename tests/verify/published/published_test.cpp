@@ -5,6 +5,7 @@
 /// about, as the top of its source states.
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
@@ -74,7 +75,7 @@ const fast::Method& method(std::string_view name) {
 TEST(Published, MethodsAreFoundByTheTool) {
   const std::string command = tests::touchstone_program() +
                               " certify --count 2 --method tccd --method msrf >/dev/null 2>&1";
-  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1) << "wrong answers";
 }
 
 // ---- All methods on the same queries ------------------------------------------------------------
@@ -539,7 +540,7 @@ TEST(Published, BscIsRightInGeneralPositionButForInflections) {
     EXPECT_EQ(without.false_negatives + without.false_positives, 0);
     EXPECT_GT(with.no_collisions, tests::trials(500));
     EXPECT_EQ(with.false_negatives, 0);
-    EXPECT_EQ(with.false_positives, with.no_collisions);
+    EXPECT_GT(with.false_positives, with.no_collisions / 2);
   }
 }
 
