@@ -89,6 +89,10 @@ struct MethodOptions {
   double t_max = 1.0;  ///< only impacts up to this time count (0 to 1)
 };
 
+/// A function as error_filter().
+using ErrorFilter = std::array<double, 3> (*)(Kind kind, const std::array<double, 3>& x_max,
+                                              double distance);
+
 /// The description of a method, for the registry, reports and help.
 struct MethodInfo {
   /// The name on the command line: unique, snake_case.
@@ -111,7 +115,7 @@ struct MethodInfo {
   /// The filter that its tolerances do not include: a yes claims a distance of at most its
   /// tolerance plus twice this filter. Without one, of at most its tolerance (docs/theory.md,
   /// section 7.3).
-  std::optional<ErrorModel> filter = std::nullopt;
+  ErrorFilter filter = nullptr;
   /// The names of its stages in order; empty if it has none.
   std::vector<std::string_view> stages = {};
 
@@ -149,12 +153,7 @@ class Method {
 /// The certified solver as a method.
 [[nodiscard]] std::unique_ptr<Method> certified_method(const CertifiedOptions& base = {});
 
-/// Tight-Inclusion as a method. Its name is `tight_inclusion`, with the published filter
-/// `tight_inclusion_published`, with the released one `tight_inclusion_released`, which promises
-/// nothing; in single precision `tight_inclusion_float`. Options that MethodOptions lack are taken
-/// from `base`. A scene's filter must hold for both kinds. With no_zero_toi the method promises
-/// nothing.
-[[nodiscard]] std::unique_ptr<Method> tight_inclusion_method(
-    const TightInclusionOptions& base = {});
+/// Tight-Inclusion as a method, `tight_inclusion`.
+[[nodiscard]] std::unique_ptr<Method> tight_inclusion_method();
 
 }  // namespace touchstone::fast

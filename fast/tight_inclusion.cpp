@@ -12,6 +12,7 @@
 #include "fast/method.hpp"
 #include "fast/platform/arithmetic_check.hpp"
 #include "fast/tight_inclusion/curved_box_kernel.hpp"
+#include "fast/tight_inclusion_variant.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -19,6 +20,9 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr double scale_down = 0x1p-16;
+
+/// The most boxes of a level, of 24 bytes in each of two arrays.
+constexpr std::size_t most_boxes = std::size_t{1} << 22U;
 
 bool is_single_precision(const BoxKernel& kernel) {
   return kernel.digits == std::numeric_limits<float>::digits;
@@ -55,7 +59,6 @@ struct Workspace {
 struct SearchOptions {
   double tolerance;
   std::int64_t max_checks;
-  std::size_t max_boxes;
   double t_end;  ///< of at most BoxKernel::digits fractional bits
 };
 
@@ -160,7 +163,7 @@ class Search {
       } else if (axis) {
         split(corner, *axis);
       }
-      if (workspace_.next_level.size() + workspace_.upper_halves.size() > options_.max_boxes) {
+      if (workspace_.next_level.size() + workspace_.upper_halves.size() > most_boxes) {
         return true;
       }
     }
@@ -226,7 +229,6 @@ void require_valid(const TightInclusionOptions& options) {
           "the tolerance must be positive and finite");
   require(is_valid(options.separation), "the separation must be finite and not negative");
   require(options.t_max >= 0.0 && options.t_max <= 1.0, "t_max must be in [0,1]");
-  require(options.max_refinements >= 0, "max_refinements must not be negative");
   require(!options.scene_filter || std::ranges::all_of(*options.scene_filter, is_filter),
           "the filter of a scene must not be negative");
 }
@@ -236,54 +238,44 @@ double round_up_to_exact(double t, int digits) {
   return std::ldexp(std::ceil(std::ldexp(t, digits)), -digits);
 }
 
-const BoxKernel& kernel_of(const TightInclusionOptions& options) {
-  if (options.error_model == ErrorModel::single_precision) {
-    return *single_precision_box_kernels().back();
-  }
-  if (chosen_kernels().box != nullptr) return *chosen_kernels().box;
-  return options.error_model == ErrorModel::released ? released_box_kernel()
-                                                     : *box_kernels().back();
-}
-
-bool has_filter_of_curves(const TightInclusionOptions& options) {
-  return options.error_model == ErrorModel::derived && !options.scene_filter;
-}
-
 /// The kernel for queries of a shape.
 const BoxKernel& kernel_of(const QueryShape& shape, const TightInclusionOptions& options) {
-  if (shape.is_straight()) return kernel_of(options);
+  if (shape.is_straight()) {
+    return chosen_kernels().box != nullptr ? *chosen_kernels().box : *box_kernels().back();
+  }
   if (shape.degree < 2 || shape.degree > BoxProblem::greatest_curve_degree) {
     throw std::invalid_argument("tight_inclusion: curves must be of degree 2 or 3");
   }
-  if (!has_filter_of_curves(options)) {
-    throw std::invalid_argument("tight_inclusion: curves have the derived filter alone");
+  if (options.scene_filter) {
+    throw std::invalid_argument("tight_inclusion: curves have no filter of a scene");
   }
   return shape.is_rational ? rational_box_kernel() : curved_box_kernel();
 }
 
-/// Solves one query by one search or more, as the options require.
+/// Solves one query by a search.
 class QuerySolver {
  public:
-  QuerySolver(const BoxKernel& kernel, Workspace& workspace, const TightInclusionOptions& options)
-      : kernel_(kernel), workspace_(workspace), options_(options) {}
+  QuerySolver(const TightInclusionVariant& variant, Workspace& workspace,
+              const TightInclusionOptions& options)
+      : kernel_(variant.kernel),
+        error_filter_(variant.filter),
+        workspace_(workspace),
+        options_(options) {}
 
   TightInclusionResult solve(Kind kind, const Query& query) {
-    TightInclusionResult result;
     workspace_.problem.kind = kind;
     const Extent extent = kernel_.load(query, workspace_.problem);
-    if (!extent.finite) return result;
+    if (!extent.finite) return {};
     prepare(kind, query, extent);
-    run(result);
-    return result;
+    return search();
   }
 
   /// Query i, on curves.
   TightInclusionResult solve(const Queries& queries, std::size_t i) {
-    TightInclusionResult result;
     BoxProblem& problem = workspace_.problem;
     problem.kind = queries.kind;
     const Extent extent = load_curves(queries, i, problem);
-    if (!extent.finite) return result;
+    if (!extent.finite) return {};
     const double distance = options_.separation.distance;
     std::optional<std::array<double, 3>> filter;
     if (queries.is_rational) {
@@ -293,21 +285,12 @@ class QuerySolver {
     }
     if (!filter) return {.verdict = Verdict::yes, .toi = 0.0, .tolerance = infinity};
     tolerance_ = options_.tolerance;
-    t_max_ = options_.t_max;
     problem.separation = distance;
     std::ranges::copy(*filter, problem.filter.begin());
-    run(result);
-    return result;
+    return search();
   }
 
  private:
-  void run(TightInclusionResult& result) {
-    search(result);
-    if (options_.no_zero_toi) refine(result);
-    result.tolerance /= scale_;
-    result.separation.distance /= scale_;
-  }
-
   /// Sets scale, separation and filter.
   void prepare(Kind kind, const Query& query, Extent extent) {
     const double greatest = std::max(std::ranges::max(extent.x_max), options_.separation.distance);
@@ -318,7 +301,6 @@ class QuerySolver {
       extent = kernel_.load(scaled, workspace_.problem);
     }
     tolerance_ = std::max(options_.tolerance * scale_, std::numeric_limits<double>::denorm_min());
-    t_max_ = options_.t_max;
     workspace_.problem.separation = rounded_up(kernel_, options_.separation.distance * scale_);
     const std::array<double, 3> exact = filter(kind, extent.x_max);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -327,15 +309,13 @@ class QuerySolver {
   }
 
   [[nodiscard]] std::array<double, 3> filter(Kind kind, const std::array<double, 3>& x_max) const {
-    std::array<double, 3> result =
-        options_.scene_filter
-            ? *options_.scene_filter
-            : error_filter(kind, x_max, workspace_.problem.separation, options_.error_model);
+    std::array<double, 3> result = options_.scene_filter
+                                       ? *options_.scene_filter
+                                       : error_filter_(kind, x_max, workspace_.problem.separation);
     if (scale_ == 1.0) return result;
     // Scaling does not reduce underflow, and truncates coordinates by as much again.
-    const std::array<double, 3> underflow = error_filter(
-        kind, {0.0, 0.0, 0.0}, 0.0,
-        is_single_precision(kernel_) ? ErrorModel::single_precision : ErrorModel::derived);
+    const std::array<double, 3> underflow =
+        (is_single_precision(kernel_) ? error_filter_ : error_filter)(kind, {0.0, 0.0, 0.0}, 0.0);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (options_.scene_filter) result[axis] *= scale_;
       result[axis] = std::nextafter(result[axis] + 2.0 * underflow[axis], infinity);
@@ -343,52 +323,24 @@ class QuerySolver {
     return result;
   }
 
-  void search(TightInclusionResult& result) {
-    const SearchResult found = Search(kernel_, workspace_,
-                                      {tolerance_, options_.max_checks, options_.max_boxes,
-                                       round_up_to_exact(t_max_, kernel_.digits)})
-                                   .run();
-    result.checks += found.checks;
-    result.verdict = found.collides ? Verdict::yes : Verdict::no;
-    result.toi = found.collides ? std::min(found.toi, t_max_) : Answer::none;
-    result.tolerance = found.collides ? found.tolerance : Answer::none;
-    result.separation.distance = workspace_.problem.separation;
-  }
-
-  /// Searches again while the time of impact is 0, with options that depend on the last result.
-  void refine(TightInclusionResult& result) {
-    while (result.verdict == Verdict::yes && result.toi == 0.0 &&
-           result.refinements < options_.max_refinements) {
-      ++result.refinements;
-      double& separation = workspace_.problem.separation;
-      const bool ran_out = result.tolerance > tolerance_;
-      if (ran_out) {
-        t_max_ *= 0.9;
-      } else if (10.0 * tolerance_ < separation) {
-        separation = rounded_up(kernel_, separation / 2.0);
-      } else {
-        tolerance_ /= 2.0;
-      }
-      const double last_tolerance = result.tolerance;
-      search(result);
-      // No contact was found, but only up to a shorter time or at a lower separation: the answer to
-      // the query remains yes.
-      const bool asked_for_more =
-          t_max_ < options_.t_max || separation < options_.separation.distance * scale_;
-      if (result.verdict == Verdict::no && asked_for_more) {
-        result.verdict = Verdict::yes;
-        result.toi = t_max_;
-        result.tolerance = last_tolerance;
-      }
-    }
+  TightInclusionResult search() {
+    const SearchResult found =
+        Search(kernel_, workspace_,
+               {tolerance_, options_.max_checks, round_up_to_exact(options_.t_max, kernel_.digits)})
+            .run();
+    if (!found.collides) return {.verdict = Verdict::no, .checks = found.checks};
+    return {.verdict = Verdict::yes,
+            .toi = std::min(found.toi, options_.t_max),
+            .tolerance = found.tolerance / scale_,
+            .checks = found.checks};
   }
 
   const BoxKernel& kernel_;
+  const ErrorFilter error_filter_;
   Workspace& workspace_;
   const TightInclusionOptions& options_;
   double scale_ = 1.0;
   double tolerance_ = 0.0;
-  double t_max_ = 1.0;
 };
 
 Workspace& workspace_of_this_thread() {
@@ -402,11 +354,11 @@ void solve_all(const Queries& queries, const TightInclusionOptions& options, con
   require_contact(queries.kind);
   require_strict_environment();
   require_valid(options);
-  const BoxKernel& kernel = kernel_of(queries, options);
+  const TightInclusionVariant usual{kernel_of(queries, options), error_filter};
   Workspace& workspace = workspace_of_this_thread();
   const std::size_t size = queries.size();
   for (std::size_t i = 0; i < size; ++i) {
-    QuerySolver solver(kernel, workspace, options);
+    QuerySolver solver(usual, workspace, options);
     take(i, queries.is_straight() ? solver.solve(queries.kind, queries.straight()[i])
                                   : solver.solve(queries, i));
   }
@@ -418,53 +370,17 @@ std::uint32_t to_answer_checks(std::int64_t checks) {
       std::min<std::int64_t>(checks, std::numeric_limits<std::uint32_t>::max()));
 }
 
-MethodInfo info_of(const TightInclusionOptions& options) {
-  MethodInfo info{.name = "tight_inclusion",
-                  .promise = Promise::conservative,
-                  .reference = "wang2021",
-                  .norms = {Norm::linf},
-                  .is_tolerance_driven = true,
-                  .filter = options.error_model};
-  if (options.error_model == ErrorModel::published) {
-    info.name = "tight_inclusion_published";
-    info.variant_of = "tight_inclusion";
-  }
-  if (options.error_model == ErrorModel::released) {
-    info.name = "tight_inclusion_released";
-    info.promise = Promise::none;
-    info.is_baseline = true;
-    info.variant_of = "tight_inclusion";
-  }
-  if (options.error_model == ErrorModel::single_precision) {
-    info.name = "tight_inclusion_float";
-    info.terms.float_coordinates = true;
-    info.variant_of = "tight_inclusion";
-  }
-  // An answer has no field for a lower separation.
-  if (options.no_zero_toi) info.promise = Promise::none;
-  if (has_filter_of_curves(options)) {
-    info.terms.least_degree = 2;
-    info.terms.most_degree = BoxProblem::greatest_curve_degree;
-    info.terms.rational = true;
-  }
-  return info;
-}
-
 class TightInclusionMethod final : public Method {
  public:
-  explicit TightInclusionMethod(const TightInclusionOptions& base)
-      : base_(base), info_(info_of(base)) {}
-
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
 
   void solve(const Queries& queries, std::span<Answer> answers,
              const MethodOptions& options) const override {
     const UseKernels use(kernels_);
-    TightInclusionOptions all = base_;
-    all.tolerance = options.tolerance;
-    all.max_checks = options.max_checks;
-    all.separation = options.separation;
-    all.t_max = options.t_max;
+    const TightInclusionOptions all{.tolerance = options.tolerance,
+                                    .max_checks = options.max_checks,
+                                    .separation = options.separation,
+                                    .t_max = options.t_max};
     solve_all(queries, all, [&](std::size_t i, const TightInclusionResult& result) {
       answers[i] = {.verdict = result.verdict,
                     .checks = to_answer_checks(result.checks),
@@ -475,8 +391,15 @@ class TightInclusionMethod final : public Method {
   }
 
  private:
-  TightInclusionOptions base_;
-  MethodInfo info_;
+  MethodInfo info_{.name = "tight_inclusion",
+                   .promise = Promise::conservative,
+                   .terms = {.least_degree = 2,
+                             .most_degree = BoxProblem::greatest_curve_degree,
+                             .rational = true},
+                   .reference = "wang2021",
+                   .norms = {Norm::linf},
+                   .is_tolerance_driven = true,
+                   .filter = error_filter};
   Kernels kernels_ = chosen_kernels();
 };
 
@@ -489,6 +412,14 @@ TightInclusionResult tight_inclusion(Kind kind, const Query& query,
   return result;
 }
 
+TightInclusionResult tight_inclusion(Kind kind, const Query& query,
+                                     const TightInclusionOptions& options,
+                                     const TightInclusionVariant& variant) {
+  require_strict_environment();
+  require_valid(options);
+  return QuerySolver(variant, workspace_of_this_thread(), options).solve(kind, query);
+}
+
 void tight_inclusion(const Queries& queries, std::span<TightInclusionResult> results,
                      const TightInclusionOptions& options) {
   if (results.size() != queries.size()) {
@@ -499,8 +430,8 @@ void tight_inclusion(const Queries& queries, std::span<TightInclusionResult> res
             [&](std::size_t i, const TightInclusionResult& result) { results[i] = result; });
 }
 
-std::unique_ptr<Method> tight_inclusion_method(const TightInclusionOptions& base) {
-  return std::make_unique<TightInclusionMethod>(base);
+std::unique_ptr<Method> tight_inclusion_method() {
+  return std::make_unique<TightInclusionMethod>();
 }
 
 }  // namespace touchstone::fast

@@ -84,9 +84,9 @@ constexpr std::string_view layer_lines = R"(
   verify/generate/: verify/generate/ verify/data/ verify/io/ verify/mesh/ REST
   verify/baselines/: verify/baselines/ fast/ filters/ exact/curved_query.hpp exact/element.hpp exact/query.hpp Eigen/
 // Plugins: they use packages that simulators do not need, and the rounding mode.
-  verify/published/: verify/published/ verify/baselines/ verify/generate/random_stream.hpp verify/plugin.h fast/ gmpxx.h exact/query.hpp Eigen/ xmmintrin.h
+  verify/published/: verify/published/ verify/baselines/ verify/generate/random_stream.hpp verify/plugin.h fast/ filters/ gmpxx.h exact/query.hpp Eigen/ xmmintrin.h
   verify/judge/: verify/judge/ verify/base/ verify/data/ verify/io/ REST
-  verify/solvers/: verify/solvers/ verify/base/ verify/baselines/ verify/io/ verify/judge/ REST
+  verify/solvers/: verify/solvers/ verify/base/ verify/baselines/ verify/published/ verify/io/ verify/judge/ REST
 // All that needs Linux.
   verify/solvers/child_process.cpp: verify/solvers/ verify/io/ fcntl.h linux/ poll.h sched.h sys/ unistd.h
   verify/jobs/: verify/jobs/ verify/base/ verify/data/ verify/io/ verify/judge/ verify/mesh/ verify/solvers/ REST
@@ -115,7 +115,7 @@ constexpr std::string_view foreign_headers = R"(
 constexpr std::string_view headers_without_test = R"(
 // Compilation: tests/CMakeLists.txt, tests/filters/CMakeLists.txt, tests/consumer. No code.
   exact/: cxx20.hpp exact.hpp
-  fast/: fast.hpp
+  fast/: fast.hpp tight_inclusion_variant.hpp
   filters/: strict_arithmetic.hpp
   verify/data/: query_source.hpp
 // The oracle, the certificates and their checker.
@@ -135,7 +135,7 @@ constexpr std::string_view headers_without_test = R"(
   fast/intersections/: filter_on_lanes.hpp orientation.hpp pair_filter.hpp pair_order.hpp pair_order_avx2.hpp triangle_contacts.hpp
   fast/platform/: floating_point_state.hpp lanes.hpp lanes_avx2.hpp lanes_avx512.hpp lanes_neon.hpp
   fast/step/: codimensional.hpp thickness.hpp
-  fast/tight_inclusion/: box_kernel_on_lanes.hpp curved_box_kernel.hpp
+  fast/tight_inclusion/: box_kernel_on_lanes.hpp curved_box_kernel.hpp lane_by_lane.hpp
   adapters/tight_inclusion/: config.hpp
 // The answers of the methods; the queries of the families; files and child processes, tables, certify, solve.
   verify/base/: any_query.hpp cores.hpp

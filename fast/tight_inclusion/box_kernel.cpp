@@ -4,19 +4,16 @@ namespace touchstone::fast {
 
 // One definition a file, each compiled for its instruction set (box_kernel_*.cpp).
 extern const BoxKernel scalar_box_kernel;
-extern const BoxKernel scalar_released_box_kernel;
-extern const BoxKernel scalar_single_precision_box_kernel;
 #ifdef TOUCHSTONE_X86_64
 extern const BoxKernel avx2_box_kernel;
-extern const BoxKernel avx2_single_precision_box_kernel;
 #endif
 
 namespace {
 
 bool rounds_products(const BoxKernel& kernel) {
-  // ea0 at t0 and ea1 at t1 are (1+ε)(1−ε) − 1 for ε = 2^-30, or 2^-15 in float: fused it is −ε²,
-  // separate never (as in instruction_set.hpp).
-  const double epsilon = kernel.digits == std::numeric_limits<double>::digits ? 0x1p-30 : 0x1p-15;
+  // ea0 at t0 and ea1 at t1 are (1+ε)(1−ε) − 1 for ε = 2^-30: fused it is −ε², separate never (as
+  // in instruction_set.hpp).
+  constexpr double epsilon = 0x1p-30;
   BoxProblem problem;
   problem.kind = Kind::edge_edge;
   problem.coordinates[0] = {1.0 + epsilon,  -1.0 / epsilon, 0, 0,
@@ -39,19 +36,5 @@ std::span<const BoxKernel* const> box_kernels() {
       "kernel", rounds_products);
   return kernels;
 }
-
-std::span<const BoxKernel* const> single_precision_box_kernels() {
-  static const auto kernels = runnable_kernels<BoxKernel>(
-      {
-          &scalar_single_precision_box_kernel,
-#ifdef TOUCHSTONE_X86_64
-          &avx2_single_precision_box_kernel,
-#endif
-      },
-      "kernel", rounds_products);
-  return kernels;
-}
-
-const BoxKernel& released_box_kernel() { return scalar_released_box_kernel; }
 
 }  // namespace touchstone::fast

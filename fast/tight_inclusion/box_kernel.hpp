@@ -79,11 +79,4 @@ struct BoxKernel {
 /// \throws std::runtime_error if one was compiled so that products are contracted.
 [[nodiscard]] std::span<const BoxKernel* const> box_kernels();
 
-/// The same for kernels in single precision.
-[[nodiscard]] std::span<const BoxKernel* const> single_precision_box_kernels();
-
-/// The scalar kernel in the order of operations of the public Tight-Inclusion, with the bits of
-/// filters::ReleasedEdgeEdge and filters::ReleasedVertexFace: for comparisons only.
-[[nodiscard]] const BoxKernel& released_box_kernel();
-
 }  // namespace touchstone::fast

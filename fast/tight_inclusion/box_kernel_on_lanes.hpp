@@ -35,20 +35,6 @@ struct ConvexSteps {
   }
 };
 
-/// The steps of filters::ReleasedEdgeEdge and filters::ReleasedVertexFace.
-struct ReleasedSteps {
-  template <class Lanes>
-  static Lanes blend(const Lanes& a, const Lanes& b, const Lanes& /*weight_a*/,
-                     const Lanes& weight_b) {
-    return filters::blend_from_first(a, b, weight_b);
-  }
-  template <class Lanes>
-  static Lanes blend(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& /*weight_a*/,
-                     const Lanes& weight_b, const Lanes& weight_c) {
-    return filters::blend_from_first(a, b, c, weight_b, weight_c);
-  }
-};
-
 /// The kernel's functions on `Lanes`, in the order of operations of `Steps`.
 template <class Lanes, class Steps = ConvexSteps>
 struct BoxKernelOnLanes {

@@ -71,15 +71,14 @@ struct TightInclusionItem {
 
 std::size_t tight_inclusion(const std::string& kind_name, const Doubles& array, py::array results,
                             double separation, const std::string& norm, double tolerance,
-                            std::int64_t max_checks, double t_max, bool no_zero_toi, int threads,
+                            std::int64_t max_checks, double t_max, int threads,
                             const py::object& progress) {
   const Queries queries = queries_of(kind_from(kind_name), array);
   const auto items = items_of<TightInclusionItem>(results, queries.size());
   const fast::TightInclusionOptions options{.tolerance = tolerance,
                                             .max_checks = max_checks,
                                             .separation = separation_from(separation, norm),
-                                            .t_max = t_max,
-                                            .no_zero_toi = no_zero_toi};
+                                            .t_max = t_max};
   fast::tight_inclusion(queries.part(0, 0), {}, options);  // checks them
   return in_blocks(
       queries.size(), search_block, threads, progress, [&](std::size_t first, std::size_t count) {
@@ -143,7 +142,7 @@ PYBIND11_MODULE(_fast, m) {
         arg("progress"));
   m.def("tight_inclusion", tight_inclusion, arg("kind"), arg("queries").noconvert(),
         arg("results").noconvert(), arg("separation"), arg("norm"), arg("tolerance"),
-        arg("max_checks"), arg("t_max"), arg("no_zero_toi"), arg("threads"), arg("progress"));
+        arg("max_checks"), arg("t_max"), arg("threads"), arg("progress"));
   m.def("distance", distance, arg("kind"), arg("queries").noconvert(), arg("results").noconvert(),
         arg("t"), arg("norm"), arg("threads"), arg("progress"));
   m.def("certified_layout", certified_layout);

@@ -30,7 +30,6 @@ def tight_inclusion(
     tolerance: float,
     max_checks: int,
     t_max: float,
-    no_zero_toi: bool,
     threads: int,
     progress: _Progress | None,
 ) -> int: ...

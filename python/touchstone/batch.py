@@ -299,7 +299,6 @@ def tight_inclusion(
     tolerance: float = 1e-6,
     max_checks: int = 1_000_000,
     t_max: float = 1.0,
-    no_zero_toi: bool = False,
     threads: int = 0,
     progress: bool | None = None,
     out: TightInclusionResult | None = None,
@@ -314,8 +313,6 @@ def tight_inclusion(
         Boxes whose image is this small are not split, in units of the coordinates.
     max_checks : int, optional
         After this many boxes the answer is a conservative yes; 0: no limit.
-    no_zero_toi : bool, optional
-        Search again with smaller tolerances while the time of impact is 0.
 
     Returns
     -------
@@ -345,7 +342,7 @@ def tight_inclusion(
         progress,
         out,
         lambda array, items, callback: _fast.tight_inclusion(
-            kind, array, items, separation, norm, tolerance, max_checks, t_max, no_zero_toi, threads, callback
+            kind, array, items, separation, norm, tolerance, max_checks, t_max, threads, callback
         ),
         curves=True,
     )

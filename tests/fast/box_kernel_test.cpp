@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <vector>
 
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
@@ -21,12 +20,6 @@ namespace touchstone::fast::box_kernel_test {
 namespace {
 
 using tests::Random;
-
-bool is_single_precision(const BoxKernel& kernel) { return kernel.digits == 24; }
-
-double rounded(const BoxKernel& kernel, double x) {
-  return is_single_precision(kernel) ? static_cast<double>(static_cast<float>(x)) : x;
-}
 
 /// A dyadic interval within [0,1], of a width down to 2^-digits.
 std::array<double, 2> random_interval(Random& random, int digits) {
@@ -42,65 +35,40 @@ Box random_box(Random& random, int digits) {
   return {{t[0], t[1], u[0], u[1], v[0], v[1]}};
 }
 
-Query random_query(Random& random, const BoxKernel& kernel) {
-  const std::array<int, 6> exponents = is_single_precision(kernel)
-                                           ? std::array{-135, -30, 0, 1, 40, 110}
-                                           : std::array{-1060, -30, 0, 1, 40, 1000};
+Query random_query(Random& random) {
+  constexpr std::array exponents{-1060, -30, 0, 1, 40, 1000};
   const int exponent = exponents[static_cast<std::size_t>(random.between(0, 5))];
   Query query{};
   for (double& x : query.coordinates) {
-    x = rounded(kernel, std::ldexp(random.uniform(-1.0, 1.0), exponent - random.between(0, 3)));
+    x = std::ldexp(random.uniform(-1.0, 1.0), exponent - random.between(0, 3));
     if (random.between(0, 20) == 0) x = random.coin() ? 0.0 : -0.0;
   }
   return query;
 }
 
-bool is_released(const BoxKernel& kernel) { return &kernel == &released_box_kernel(); }
-
 /// F at corner number `corner` (binary digits t, u, v), from the kernel's stated expressions.
-template <class Scalar>
-Scalar expression(const BoxKernel& kernel, const BoxProblem& problem, const Box& box,
-                  std::size_t axis, std::size_t corner) {
-  std::array<Scalar, 8> x;
-  for (std::size_t i = 0; i < 8; ++i) x[i] = Scalar(problem.coordinates[axis][i]);
+double expression(const BoxProblem& problem, const Box& box, std::size_t axis, std::size_t corner) {
+  const std::array<double, 8>& x = problem.coordinates[axis];
   const std::size_t late = corner / 4, far_u = corner / 2 % 2, far_v = corner % 2;
-  const auto end = [&box](std::size_t i) { return static_cast<Scalar>(box.ends[i]); };
-  const Scalar one(1), t(end(late)), u(end(2 + far_u)), v(end(4 + far_v));
-  const Scalar s(one - t), complement_u(one - u), complement_v(one - v), w(complement_u - v);
+  const double t = box.ends[late], u = box.ends[2 + far_u], v = box.ends[4 + far_v];
   if (problem.kind == Kind::edge_edge) {
-    const std::array<Scalar, 6> weights{s, t, complement_u, u, complement_v, v};
-    return is_released(kernel) ? filters::ReleasedEdgeEdge::evaluate<Scalar>(x, weights)
-                               : filters::EdgeEdge::evaluate<Scalar>(x, weights);
+    return filters::EdgeEdge::evaluate<double>(x, {1.0 - t, t, 1.0 - u, u, 1.0 - v, v});
   }
-  const std::array<Scalar, 5> weights{s, t, w, u, v};
-  return is_released(kernel) ? filters::ReleasedVertexFace::evaluate<Scalar>(x, weights)
-                             : filters::VertexFace::evaluate<Scalar>(x, weights);
+  return filters::VertexFace::evaluate<double>(x, {1.0 - t, t, 1.0 - u - v, u, v});
 }
 
 std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
 
 class EachKernel : public testing::TestWithParam<const BoxKernel*> {};
 
-std::vector<const BoxKernel*> all_kernels() {
-  std::vector<const BoxKernel*> all{&released_box_kernel()};
-  for (const auto& some : {box_kernels(), single_precision_box_kernels()}) {
-    all.insert(all.end(), some.begin(), some.end());
-  }
-  return all;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, EachKernel, testing::ValuesIn(all_kernels()), [](const auto& tested) {
-  const BoxKernel& kernel = *tested.param;
-  const char* const sort = is_released(kernel)           ? "released_"
-                           : is_single_precision(kernel) ? "single_precision_"
-                                                         : "";
-  return sort + std::string(to_string(kernel.instructions));
+INSTANTIATE_TEST_SUITE_P(All, EachKernel, testing::ValuesIn(box_kernels()), [](const auto& tested) {
+  return std::string(to_string(tested.param->instructions));
 });
 
 TEST_P(EachKernel, LoadsCoordinatesAndTheirExtent) {
   Random random(1);
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const Query query = random_query(random, *GetParam());
+  const Query query = random_query(random);
   BoxProblem problem;
   EXPECT_TRUE(GetParam()->load(query, problem).finite);
   for (std::size_t i = 0; i < 24; ++i) {
@@ -123,17 +91,16 @@ TEST_P(EachKernel, LoadsCoordinatesAndTheirExtent) {
 
 TEST_P(EachKernel, ComputesTheExpressionsBitForBitAndTestsTheBoxOfItsCorners) {
   const BoxKernel& kernel = *GetParam();
-  const auto round = [&kernel](double x) { return rounded(kernel, x); };
   Random random(2);
   int rejections = 0, insides = 0;
   for (int i = 0; i < 20000; ++i) {
     BoxProblem problem;
     problem.kind = random.coin() ? Kind::edge_edge : Kind::vertex_face;
-    const Query query = random_query(random, kernel);
+    const Query query = random_query(random);
     const Box box = random_box(random, kernel.digits);
     static_cast<void>(kernel.load(query, problem));
     const auto tolerance = [&] {
-      return round(std::abs(query.coordinates[0]) * random.uniform(0.0, 4.0));
+      return std::abs(query.coordinates[0]) * random.uniform(0.0, 4.0);
     };
     for (std::size_t axis = 0; axis < 3; ++axis) problem.filter[axis] = tolerance();
     problem.separation = random.coin() ? 0.0 : tolerance();
@@ -143,19 +110,14 @@ TEST_P(EachKernel, ComputesTheExpressionsBitForBitAndTestsTheBoxOfItsCorners) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const CornerValues values = kernel.corners(problem, box, axis);
       for (std::size_t corner = 0; corner < 8; ++corner) {
-        const double expected =
-            is_single_precision(kernel)
-                ? static_cast<double>(expression<float>(kernel, problem, box, axis, corner))
-                : expression<double>(kernel, problem, box, axis, corner);
-        ASSERT_EQ(bits(values[corner]), bits(expected))
+        ASSERT_EQ(bits(values[corner]), bits(expression(problem, box, axis, corner)))
             << to_string(problem.kind) << " case " << i << " axis " << axis << " corner " << corner;
       }
       const auto [least, greatest] = std::ranges::minmax(values);
       const double filter = problem.filter[axis], d = problem.separation;
-      // (A sum of two floats that is rounded to double and then to float is rounded correctly.)
-      rejected = rejected || round(least - d) > filter || round(greatest + d) < -filter;
-      inside = inside && round(greatest - d) <= filter && round(least + d) >= -filter;
-      width = std::max(width, round(greatest - least));
+      rejected = rejected || least - d > filter || greatest + d < -filter;
+      inside = inside && greatest - d <= filter && least + d >= -filter;
+      width = std::max(width, greatest - least);
     }
     const BoxTest test = kernel.test(problem, box);
     ASSERT_EQ(test.rejected, rejected) << i;

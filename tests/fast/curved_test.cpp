@@ -342,7 +342,6 @@ TEST(TightInclusionOnCurves, RefusesWhatItHasNoFilterFor) {
     refuses(shape, {});
   }
   refuses({.degree = 2}, {}, 0);
-  refuses({.degree = 2}, {.error_model = ErrorModel::published});
   refuses({.degree = 2}, {.scene_filter = std::array{1.0, 1.0, 1.0}});
 }
 

@@ -130,10 +130,6 @@ std::vector<Refusal> refusals() {
        }},
       {"time_of_tight_inclusion", no_time,
        [](double x) { (void)tight_inclusion(posed.kind, posed.query, {.t_max = x}); }},
-      {"refinements_of_tight_inclusion", no_count,
-       [](double x) {
-         (void)tight_inclusion(posed.kind, posed.query, {.max_refinements = static_cast<int>(x)});
-       }},
       {"scene_filter_of_tight_inclusion",
        {-1.0, nan},
        [](double x) {

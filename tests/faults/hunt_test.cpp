@@ -2,13 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstdint>
 #include <set>
 #include <stdexcept>
 #include <string_view>
 
-#include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/generate/everyday.hpp"
 #include "verify/solvers/registry.hpp"
@@ -55,29 +52,6 @@ TEST(FaultHunt, EndsInASimpleQuery) {
   EXPECT_LE(verify::fuzz::magnitudes(query).size(), 2U);
   for (const double x : verify::fuzz::magnitudes(query)) {
     EXPECT_EQ(verify::generate::shortest_decimal(x).count, 1) << x;
-  }
-}
-
-/// The public Tight-Inclusion's filter and order of operations: the fuzzer finds the fault soon, by
-/// a query that its users could have met, of few short numbers.
-TEST(ReleasedFilter, IsFoundByAQueryOfEverydaySize) {
-  for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    bool found = false;
-    const auto look_at = [&found](const verify::fuzz::Finding& finding) {
-      const auto all = verify::fuzz::magnitudes(finding.simplest.query);
-      const bool are_short = std::ranges::all_of(all, [](double x) {
-        return x >= 1e-3 && x <= 1e3 && verify::generate::shortest_decimal(x).count <= 4;
-      });
-      found = found || (are_short && all.size() <= 4);
-    };
-    (void)verify::fuzz::fuzz(verify::solvers::find_method("tight_inclusion_released"),
-                             {.most_queries = 3000,
-                              .seed = seed,
-                              .method = {.max_checks = 10'000},
-                              .shrink_seconds = 60.0,
-                              .only = {verify::judge::Fault::false_negative},
-                              .on_finding = look_at});
-    EXPECT_TRUE(found) << "seed " << seed;
   }
 }
 

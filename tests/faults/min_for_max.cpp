@@ -1,7 +1,7 @@
 /// \file
 /// A plugin with a known fault: an inclusion-based solver of the usual sort, whose numerical filter
 /// is a constant times γ³ with γ = min(x_max, 1) instead of max. (The public Tight-Inclusion has
-/// had this fault since 2022: touchstone/tight_inclusion.hpp, ErrorModel::released.)
+/// had this fault since 2022: verify/published/tight_inclusion_filters.hpp.)
 ///
 /// The rest is right: it halves boxes of (t,u,v), earliest time first, drops those whose corner
 /// values are all beyond the filter on one side of an axis, and says yes at the first small box.

@@ -84,7 +84,7 @@ using DecideCurvesExactly = std::optional<fast::ExactImpact>(Kind, const CurvedQ
                                                              double toi_tolerance, double t_max);
 using MakeFixedPoint = fast::FixedPointVertices(const fast::MovingVertices&, double end,
                                                 double distance);
-using MakeTightInclusion = std::unique_ptr<fast::Method>(const fast::TightInclusionOptions&);
+using MakeTightInclusion = std::unique_ptr<fast::Method>();
 using MakeCertified = std::unique_ptr<fast::Method>(const fast::CertifiedOptions&);
 
 /// All faults that this build plants, in the order of faults.txt.

@@ -5,7 +5,7 @@
 
 const fs = require("fs");
 
-const own = ["certified", "tight_inclusion", "tight_inclusion_published", "tight_inclusion_float", "tight_inclusion_released"];
+const own = ["certified", "tight_inclusion"];
 const others = ["accd", "cubic"];
 
 /// What must agree. A certificate's first lines hold the name of its query.

@@ -230,7 +230,7 @@ def datasets(tool, tmp_path_factory) -> list[pathlib.Path]:
 
 
 # The command line asks these only the queries within their terms.
-WITH_TERMS = ("tight_inclusion_float", "accd_limited")
+WITH_TERMS = ("accd_limited",)
 
 
 # They answer queries on curves, or about elements, alone.

@@ -47,25 +47,23 @@ Separation stated_distance(const fast::Answer& answer, const Separation& separat
 }
 
 Separation tight_inclusion_distance(Kind kind, const Query& query, const fast::Answer& answer,
-                                    double separation, fast::ErrorModel model) {
+                                    double separation, fast::ErrorFilter filter) {
   const std::array<double, 3> x_max = greatest_coordinates(query);
   if (std::max(std::ranges::max(x_max), separation) > greatest_unscaled) {
     return {.distance = infinity, .norm = Norm::linf};
   }
-  // The published filter bounds the errors of the released order of operations too, and is not
-  // below the released one, so it implies the claim of a yes with the released filter.
-  if (model == fast::ErrorModel::released) model = fast::ErrorModel::published;
-  const double filter = std::ranges::max(fast::error_filter(kind, x_max, separation, model));
-  return {.distance = up(up(up(answer.tolerance) + separation) + 2.0 * filter), .norm = Norm::linf};
+  const double greatest = std::ranges::max(filter(kind, x_max, separation));
+  return {.distance = up(up(up(answer.tolerance) + separation) + 2.0 * greatest),
+          .norm = Norm::linf};
 }
 
 }  // namespace
 
-Separation claimed_distance(std::optional<fast::ErrorModel> filter, Kind kind, const Query& query,
+Separation claimed_distance(fast::ErrorFilter filter, Kind kind, const Query& query,
                             const fast::Answer& answer, const Separation& separation) {
   if (std::isnan(answer.tolerance)) return {.distance = infinity, .norm = separation.norm};
-  if (!filter) return stated_distance(answer, separation);
-  return tight_inclusion_distance(kind, query, answer, separation.distance, *filter);
+  if (filter == nullptr) return stated_distance(answer, separation);
+  return tight_inclusion_distance(kind, query, answer, separation.distance, filter);
 }
 
 bool is_seen_within(Kind kind, const Query& query, double t, double distance) {

@@ -15,8 +15,6 @@
 /// corner, of which the one with the lowest parameters is in the domain. The width is the rounded
 /// difference of two values, hence one spacing more than τ.
 
-#include <optional>
-
 #include "fast/method.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/tight_inclusion.hpp"
@@ -27,11 +25,10 @@ namespace touchstone::verify::judge {
 /// to a yes. Infinite, hence not a valid separation, if the yes claims nothing: without a
 /// tolerance, and with a filter for coordinates or separations beyond 2^1016, which Tight-Inclusion
 /// scales down first.
-/// \param filter that the method's tolerances do not include (fast::MethodInfo::filter)
+/// \param filter that the method's tolerances do not include (fast::MethodInfo::filter), or null
 /// \param separation the requested one
-[[nodiscard]] Separation claimed_distance(std::optional<fast::ErrorModel> filter, Kind kind,
-                                          const Query& query, const fast::Answer& answer,
-                                          const Separation& separation);
+[[nodiscard]] Separation claimed_distance(fast::ErrorFilter filter, Kind kind, const Query& query,
+                                          const fast::Answer& answer, const Separation& separation);
 
 /// True if a quick test, in floating point with proved bounds, shows that the primitives are within
 /// the distance in L∞ at time t. False is no information.

@@ -40,7 +40,7 @@ struct Question {
 struct Standard {
   fast::Promise promise = fast::Promise::conservative;
   /// The filter that its tolerances do not include (fast::MethodInfo::filter).
-  std::optional<fast::ErrorModel> filter = std::nullopt;
+  fast::ErrorFilter filter = nullptr;
   fast::Terms terms = {};
 };
 

@@ -23,7 +23,12 @@ std::int32_t touchstone_plugin_version() { return TOUCHSTONE_PLUGIN_VERSION; }
 
 const char* touchstone_plugin_name() { return NAME_OF(METHOD); }
 
-void touchstone_plugin_promise(TouchstonePluginPromise* promise) { promise->promise = PROMISE; }
+void touchstone_plugin_promise(TouchstonePluginPromise* promise) {
+  promise->promise = PROMISE;
+#ifdef IN_FLOAT
+  promise->is_float = 1;
+#endif
+}
 
 void touchstone_plugin_solve_batch(std::int32_t kind, std::int64_t count, const double* coordinates,
                                    const TouchstonePluginOptions* options,
@@ -39,6 +44,7 @@ void touchstone_plugin_solve_batch(std::int32_t kind, std::int64_t count, const 
           kind == TOUCHSTONE_VERTEX_FACE ? Kind::vertex_face : Kind::edge_edge, query, *options);
       answer->verdict = found.verdict;
       answer->toi_lower = found.toi;
+      answer->tolerance = found.tolerance;
     } catch (const std::bad_alloc&) {
       throw;
     } catch (...) {

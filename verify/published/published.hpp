@@ -5,7 +5,7 @@
 /// directions.
 ///
 /// Each method NAME is a function `Answer NAME(Kind, const Query&, const TouchstonePluginOptions&)`
-/// in the source NAME.cpp, whose comment says its idea, its promise and its known defects;
+/// in a source whose comment says its idea, its promise and its known defects;
 /// plugin.cpp makes it a plugin. It is called with finite coordinates, rounding to nearest, and may
 /// change the rounding mode as long as it runs. What it throws counts as a collision.
 
@@ -22,6 +22,7 @@ namespace touchstone::verify::published {
 struct Answer {
   TouchstoneVerdict verdict = TOUCHSTONE_NO;
   double toi = fast::no_number;  ///< claimed: not above the exact time of impact; only with yes
+  double tolerance = fast::no_number;  ///< of TouchstonePluginAnswer
 };
 
 [[nodiscard]] inline Answer yes_if(bool collides) {

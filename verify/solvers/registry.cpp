@@ -19,12 +19,7 @@ using Methods = std::vector<std::unique_ptr<const fast::Method>>;
 /// Ours, then the baselines, those for curves last.
 constexpr auto factories = std::to_array<std::unique_ptr<fast::Method> (*)()>({
     [] { return fast::certified_method(); },
-    [] { return fast::tight_inclusion_method(); },
-    [] { return fast::tight_inclusion_method({.error_model = fast::ErrorModel::published}); },
-    [] {
-      return fast::tight_inclusion_method({.error_model = fast::ErrorModel::single_precision});
-    },
-    [] { return fast::tight_inclusion_method({.error_model = fast::ErrorModel::released}); },
+    fast::tight_inclusion_method,
     baselines::accd_method,
     baselines::accd_limited_method,
     baselines::cubic_method,

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The methods that are built in, by their names on the command line: a new one is judged, timed and
-/// named in the help once it is in the list. fast::MethodInfo describes each.
+/// The methods that are built in, by their names on the command line: a new one is judged, timed
+/// and named in the help once it is in the list. fast::MethodInfo describes each.
 
 #include <memory>
 #include <span>

@@ -60,24 +60,13 @@ namespace touchstone::fast {
 
 // ---- The filter ---------------------------------------------------------------------------------
 
-/// The origin of a filter.
-enum class ErrorModel : std::uint8_t {
-  derived,  ///< touchstone/filters/error_bounds.hpp: c · x_max, proved for the operations that run
-  published,  ///< [wang2021]: a constant times max(x_max, 1)³
-  /// The public Tight-Inclusion since 2022: the same constant times min(x_max, 1)³. It is not a
-  /// bound: F is linear in the coordinates, so it is too small for x_max below about 0.9 and above
-  /// about 1.2. For comparison only (docs/methods.md, section 2).
-  released,
-  single_precision,  ///< as `derived`, for F computed in float
-};
-
 /// The filter on each axis, in units of the coordinates, for F − d and F + d with `distance`
 /// d, or F itself if d is 0. `x_max` is the maximum magnitude of the coordinates on each axis, of
-/// one query or of a scene; the filter of a scene holds for all its queries. Infinite if overflow
-/// could occur. \pre all arguments are finite and not negative; floats for `single_precision`.
+/// one query or of a scene; the filter of a scene holds for all its queries. It is proved for the
+/// operations that run, and infinite if overflow could occur.
+/// \pre all arguments are finite and not negative.
 [[nodiscard]] std::array<double, 3> error_filter(Kind kind, const std::array<double, 3>& x_max,
-                                                 double distance,
-                                                 ErrorModel model = ErrorModel::derived);
+                                                 double distance);
 
 // ---- Tight-Inclusion ----------------------------------------------------------------------------
 
@@ -88,26 +77,11 @@ struct TightInclusionOptions {
   /// m_I: after this many boxes the answer is a conservative yes with the tolerance reached. Not
   /// positive: no limit.
   std::int64_t max_checks = 1'000'000;
-  /// The maximum number of boxes in a level, of 24 bytes in each of two arrays; beyond it the
-  /// search ends as beyond max_checks.
-  std::size_t max_boxes = std::size_t{1} << 22U;
   /// d: the distance at which primitives are in contact; finite, not negative. Its norm has no
   /// effect: it is measured in L∞, which is conservative for L2, where no distance is smaller.
   Separation separation = {};
-  /// Only contacts up to this time, in [0,1], count; it is rounded up to a multiple of 2^-53
-  /// (2^-24 in single precision).
+  /// Only contacts up to this time, in [0,1], count; it is rounded up to a multiple of 2^-53.
   double t_max = 1.0;
-  /// If the time of impact is 0, search again with less separation, a smaller tolerance or a
-  /// shorter time, until it is positive or max_refinements is reached. For line searches that have
-  /// to advance.
-  bool no_zero_toi = false;
-  /// The maximum number of further searches of no_zero_toi.
-  int max_refinements = 32;
-  /// The origin of the filter. With `released`, which misses contacts, the order of operations is
-  /// also that of the public Tight-Inclusion, without vector instructions. With `single_precision`
-  /// the query is rounded to float and decided in float; a coordinate greater than any float is an
-  /// error.
-  ErrorModel error_model = ErrorModel::derived;
   /// The filter of a scene on each axis (error_filter), which replaces the filter of each
   /// query. It must be at least the filter of this kind and of the separation; the filter of
   /// vertex_face holds for both kinds.
@@ -115,26 +89,20 @@ struct TightInclusionOptions {
 };
 
 struct TightInclusionResult {
-  /// no: certainly no contact (except with the released filter). yes: contact, or nearly so. error:
-  /// a coordinate is NaN or infinite. Never undecided.
+  /// no: certainly no contact. yes: contact, or nearly so. error: a coordinate is NaN or infinite.
+  /// Never undecided.
   Verdict verdict = Verdict::error;
   /// A time, with yes, in [0, t_max] and not above the time of impact.
   double toi = no_number;
   /// The tolerance achieved, with yes. At some time the distance is at most this tolerance plus the
-  /// requested separation plus twice the filter. It is δ, more if the search ended early, or less
-  /// if no_zero_toi lowered it.
+  /// requested separation plus twice the filter. It is δ, or more if the search ended early.
   double tolerance = no_number;
-  /// The separation of `toi`: there is no contact at this separation before `toi`. Below the
-  /// requested one only if no_zero_toi lowered it.
-  Separation separation = {};
-  /// The number of boxes examined in all searches.
+  /// The number of boxes examined.
   std::int64_t checks = 0;
-  /// The number of further searches of no_zero_toi.
-  int refinements = 0;
 };
 
-/// Solves one query. Thread-safe. Each thread keeps its memory, bounded by max_boxes, until it
-/// ends.
+/// Solves one query. Thread-safe. Each thread keeps its memory until it ends: at most 200 MB, as a
+/// search that needs more ends as beyond max_checks.
 /// \throws std::invalid_argument for options out of range; std::runtime_error if the arithmetic is
 /// not strict (fast/platform/arithmetic_check.hpp); std::bad_alloc, which does not affect later
 /// calls.
@@ -146,8 +114,8 @@ struct TightInclusionResult {
 /// take the place of its values at both ends. ([wang2021], section 7: the extension to non-linear
 /// trajectories.) Coordinates above 2^1000, of rational curves above 2^900 or with weights not
 /// between 2^-30 and 2^30, are answered with yes, at time 0.
-/// \throws std::invalid_argument also for other curves, on curves for another error model than
-/// `derived` or a filter of a scene, and unless there is a result for each query.
+/// \throws std::invalid_argument also for other curves, on curves with a filter of a scene, and
+/// unless there is a result for each query.
 void tight_inclusion(const Queries& queries, std::span<TightInclusionResult> results,
                      const TightInclusionOptions& options = {});
 

@@ -125,7 +125,7 @@ TEST(Fuzz, FindsEveryPlantedFault) {
   const fast::MethodInfo nothing = promising(Promise::none), exactly = promising(Promise::exact),
                          conservatively = promising(Promise::conservative);
   fast::MethodInfo filtered = conservatively;
-  filtered.filter = fast::ErrorModel::derived;
+  filtered.filter = fast::error_filter;
   const auto right = [](const Query&, Answer&) {};
   const Separation linf{.distance = 0.25, .norm = Norm::linf}, l2{0.25, Norm::l2};
   const std::vector<Planted> all{

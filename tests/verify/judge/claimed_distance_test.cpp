@@ -15,23 +15,21 @@ namespace {
 
 using exact::Rational;
 using fast::Answer;
-using fast::ErrorModel;
 using fast::Verdict;
 
 constexpr Query falling{{1, 1, 2, 0, 0, 0, 4, 0, 0, 0, 4, 0,  //
                          1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
 
 /// The distance that a yes of Tight-Inclusion claims.
-double claimed_with_filter(double tolerance, const Query& query, double distance,
-                           ErrorModel filter = ErrorModel::derived) {
-  return claimed_distance(filter, Kind::vertex_face, query,
+double claimed_with_filter(double tolerance, const Query& query, double distance) {
+  return claimed_distance(fast::error_filter, Kind::vertex_face, query,
                           {.verdict = Verdict::yes, .tolerance = tolerance},
                           {.distance = distance, .norm = Norm::linf})
       .distance;
 }
 
 Separation stated(double tolerance, const Separation& separation) {
-  return claimed_distance(std::nullopt, Kind::vertex_face, falling,
+  return claimed_distance(nullptr, Kind::vertex_face, falling,
                           {.verdict = Verdict::yes, .tolerance = tolerance}, separation);
 }
 
@@ -54,13 +52,6 @@ TEST(ClaimedDistance, IsTheSumRoundedUpAndHardlyMore) {
   const Rational claimed(claimed_with_filter(tolerance, falling, distance));
   EXPECT_GT(claimed, sum);
   EXPECT_LT(claimed, sum + Rational(0x1p-52));
-}
-
-/// The published filter also bounds the released order of operations.
-TEST(ClaimedDistance, WithTheReleasedFilterIsThatWithThePublishedOne) {
-  const double published = claimed_with_filter(0.1, falling, 0.0, ErrorModel::published);
-  EXPECT_EQ(claimed_with_filter(0.1, falling, 0.0, ErrorModel::released), published);
-  EXPECT_GT(published, claimed_with_filter(0.1, falling, 0.0));
 }
 
 TEST(ClaimedDistance, WithoutAToleranceOrBeyondTheScaleNothingIsClaimed) {
@@ -87,7 +78,7 @@ TEST(ClaimedDistance, TightInclusionKeepsItOnWhatItCannotTellFromContact) {
               {.max_checks = 1000, .separation = {.distance = distance, .norm = Norm::linf}});
           if (result.verdict != Verdict::yes) continue;
           const Separation claimed = claimed_distance(
-              ErrorModel::derived, kind, query,
+              fast::error_filter, kind, query,
               {.verdict = Verdict::yes, .tolerance = result.tolerance}, separation);
           if (!is_valid(claimed)) continue;
           ++claims;
