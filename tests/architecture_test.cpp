@@ -129,7 +129,7 @@ constexpr std::string_view headers_without_test = R"(
   fast/broad_phase/: body_tree.hpp box_tree.hpp division_on_lanes.hpp search_on_lanes.hpp seeds.hpp swept_box.hpp words_one_by_one.hpp
   fast/certified/: curves.hpp kernel_on_lanes.hpp
   fast/certified/curves/: contact_proof.hpp control_polygon.hpp
-  fast/certified/exact/: distance_decision.hpp fraction.hpp
+  fast/certified/exact/: contact_conditions.hpp distance_decision.hpp enclosing_doubles.hpp fraction.hpp polynomial.hpp real_root.hpp
   fast/certified/stages/: axis.hpp bisection.hpp conservative_advancement.hpp crossing.hpp determinant.hpp direction.hpp distance_enclosure.hpp inversion.hpp lanes.hpp moving_polygon.hpp moving_vectors.hpp only_zero.hpp orientation.hpp refinement.hpp single_precision.hpp
   fast/distance/: filter_on_lanes.hpp polygon_features.hpp
   fast/intersections/: filter_on_lanes.hpp orientation.hpp pair_filter.hpp pair_order.hpp pair_order_avx2.hpp triangle_contacts.hpp
