@@ -137,12 +137,6 @@ enum class Family {
 inline constexpr std::array<Family, 4> all_families{
     Family::tiny_integers, Family::small_integers, Family::full_significands, Family::near_contact};
 
-/// True if every coordinate of the family's queries has few bits, so that sums and midpoints are
-/// exact.
-[[nodiscard]] constexpr bool has_integer_coordinates(Family family) {
-  return family == Family::tiny_integers || family == Family::small_integers;
-}
-
 /// Makes point `to` the same moving point as `from`.
 inline void share_point(Query& query, std::size_t from, std::size_t to) {
   for (const std::size_t end : {0U, 1U}) point_of(query, end, to) = point_of(query, end, from);
