@@ -379,14 +379,11 @@ def steps(data):
     for one in data["runs"]:
         step, d = scene_of(one)
         for kind, methods in by_kind(one).items():
-            counts, certified = step_of(one)[kind.replace("-", "_")], methods["certified"]
-            ended = (f"{100 * certified['stages'][stage] / certified['queries']:.1f}"
-                     for stage in ("axis", "direction", "determinant", "bisection"))
+            counts = step_of(one)[kind.replace("-", "_")]
             rows.append([f"{step}, {kind}", d, f"{counts['candidates']:,}", f"{counts['collisions']:,}",
-                         *(passes(methods[name]) for name in ("certified", "tight_inclusion")), " / ".join(ended) + " %"])
+                         *(passes(methods[name]) for name in ("certified", "tight_inclusion"))])
     return made_by(data, "touchstone bench --step FRAME0 FRAME1 …") + table(
-        ["step", "d", "candidates", "collisions", "`certified`", "`tight_inclusion`",
-         "ended by axis / direction / determinant / bisection"], rows)
+        ["step", "d", "candidates", "collisions", "`certified`", "`tight_inclusion`"], rows)
 
 
 def whole_steps(data):

@@ -7,9 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
-#include "touchstone/certified.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 
@@ -28,12 +26,6 @@ struct Candidates {
 [[nodiscard]] Query query_of(const MovingVertices& vertices, const Tetrahedron& points);
 [[nodiscard]] Query query_of(const MovingVertices& vertices, const Candidates& candidates,
                              const IndexPair& pair);
-
-/// The candidates that collide, in order: collisions(queries, options) without the queries.
-/// \throws as that function. \pre their numbers are in range.
-[[nodiscard]] std::vector<Collision> collisions(const MovingVertices& vertices,
-                                                const Candidates& candidates,
-                                                const CertifiedOptions& options = {});
 
 /// \throws std::domain_error naming the first vertex with a coordinate that is NaN or infinite;
 /// std::length_error if there are more than 2^31−1 vertices.

@@ -7,6 +7,7 @@
 #include "fast/distance/contact_enclosure.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
+#include "fast/step/scene.hpp"
 #include "touchstone/contacts.hpp"
 
 namespace touchstone::fast {
@@ -61,7 +62,7 @@ std::vector<ActiveContact> contacts_of(const Step& step,
                                        std::span<const StepCollision> collisions) {
   constexpr std::size_t collisions_of_task = 256;
   std::vector<ActiveContact> result(collisions.size());
-  with_threads(step.options().max_threads, [&] {
+  with_threads(scene_of(step).certified().max_threads, [&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, collisions.size(), collisions_of_task),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                         const StrictFloatingPoint strict;

@@ -62,7 +62,7 @@ void CurvedStep::for_each_collision(const std::atomic<double>& limit, const Take
   const std::size_t size = vertices_.numbers_of_vertex(), stride = vertices_.numbers_of_point();
   const auto decide = [&](PairKind kind, std::span<const IndexPair> pairs,
                           const Separation& separation) {
-    CertifiedOptions options = boxes_.options();
+    CertifiedOptions options = boxes_.options().solve;
     options.separation = separation;
     options.max_threads = 1;
     options.t_max = std::min(options.t_max, limit.load());
@@ -96,7 +96,8 @@ void CurvedStep::for_each_collision(const std::atomic<double>& limit, const Take
       of_distances[boxes_.separation_of(some.kind, pair).distance].push_back(pair);
     }
     for (const auto& [distance, pairs] : of_distances) {
-      decide(some.kind, pairs, {.distance = distance, .norm = boxes_.options().separation.norm});
+      decide(some.kind, pairs,
+             {.distance = distance, .norm = boxes_.options().solve.separation.norm});
     }
   });
 }
@@ -127,7 +128,7 @@ std::optional<StepImpact> CurvedStep::earliest() const {
     impact.pairs.push_back(collision);
     if (collision.toi_upper > impact.toi_upper) return;
     impact.toi_upper = collision.toi_upper;
-    limit = limit_after(collision.toi_upper, boxes_.options().toi_tolerance);
+    limit = limit_after(collision.toi_upper, boxes_.options().solve.toi_tolerance);
   });
   if (impact.pairs.empty()) return std::nullopt;
   std::erase_if(impact.pairs, [&](const StepCollision& collision) {

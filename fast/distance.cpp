@@ -118,7 +118,7 @@ class LeastDistanceSearch {
     for (double radius = usual_length() / 64.0;;) {
       const Step near =
           step_.with_places(resting, {.distance = (radius + slack_) * margin_, .norm = norm_});
-      with_threads(step_.options().max_threads, [&] { search(near, radius); });
+      with_threads(scene_of(step_).certified().max_threads, [&] { search(near, radius); });
       const double wider = radius == 0.0
                                ? std::max(most * 0x1p-12, std::numeric_limits<double>::denorm_min())
                                : 8.0 * radius;

@@ -51,7 +51,7 @@ LineSearchStatus status_of(double toi_lower) {
 LineSearchLimit limit_of_scene(const Step& step, double p, Norm norm) {
   const std::optional<LeastDistance> least = least_distance(step, 0.0, norm);
   LineSearchLimit result;
-  result.step_size = step.options().t_max;
+  result.step_size = scene_of(step).certified().t_max;
   if (!least) return result;
   result.distance = least->distance;
   std::optional<double> kept = kept_distance(p, least->distance);
@@ -191,7 +191,7 @@ class SearchOfPairs {
     if (within <= motion.mean && std::isfinite(within + thickness)) {
       const Step near =
           step_.with_separation({.distance = std::max(within, least) + rounding, .norm = norm_});
-      with_threads(step_.options().max_threads, [&] {
+      with_threads(scene_.certified().max_threads, [&] {
         for_each_possible_collision(
             scene_of(near), until,
             [this](PairKind kind, const IndexPair& pair) { consider(kind, pair); });
@@ -205,7 +205,7 @@ class SearchOfPairs {
 
   /// Contacts after this time do not matter.
   [[nodiscard]] double time() const {
-    const CertifiedOptions& options = step_.options();
+    const CertifiedOptions& options = scene_.certified();
     return std::min(options.t_max,
                     limit_after(std::min(upper_.load(), 1.0), options.toi_tolerance));
   }
@@ -225,7 +225,7 @@ class SearchOfPairs {
   }
 
   [[nodiscard]] CertifiedResult solve_within(Kind kind, const Query& query, double kept) const {
-    CertifiedOptions options = step_.options();
+    CertifiedOptions options = scene_.certified();
     options.separation = {.distance = kept, .norm = norm_};
     return solve(kind, query, options);
   }
@@ -265,7 +265,7 @@ class SearchOfPairs {
   }
 
   void take_earliest() {
-    result_.step_size = step_.options().t_max;
+    result_.step_size = scene_.certified().t_max;
     if (result_.pairs.empty()) return;
     std::erase_if(result_.pairs, [upper = upper_.load()](const StepCollision& one) {
       return one.toi_lower > upper;
@@ -297,7 +297,7 @@ void limit_by_volumes(const Step& step, double kept_volume, LineSearchLimit& res
   for (const StepCollision& one : result.pairs) upper = std::min(upper.load(), one.toi_upper);
   std::vector<StepInversion>& found = result.inversions;
   std::mutex mutex;
-  with_threads(step.options().max_threads, [&] {
+  with_threads(options.max_threads, [&] {
     scene.find_inversions(
         options, kept_volume,
         [&] {

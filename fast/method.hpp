@@ -25,8 +25,7 @@ struct Answer {
   static constexpr double none = no_number;
 
   Verdict verdict = Verdict::undecided;
-  /// The number of steps that the method counts: boxes, or the stages of MethodInfo::stages that
-  /// the query went through; 0 if it counts none.
+  /// The number of steps that the method counts, such as boxes; 0 if it counts none.
   std::uint32_t checks = 0;
   double toi_lower = none;  ///< claimed: not above the exact time of impact; only with yes
   double toi_upper = none;  ///< claimed: not below the exact time of impact; only with yes
@@ -116,8 +115,6 @@ struct MethodInfo {
   /// tolerance plus twice this filter. Without one, of at most its tolerance (docs/theory.md,
   /// section 7.3).
   ErrorFilter filter = nullptr;
-  /// The names of its stages in order; empty if it has none.
-  std::vector<std::string_view> stages = {};
 
   [[nodiscard]] bool measures_in(Norm norm) const {
     return std::ranges::find(norms, norm) != norms.end();

@@ -528,10 +528,8 @@ void require_in_range(const Scene& scene, PairKind kind, const IndexPair& pair) 
 std::string_view to_string(PairKind kind) { return record_of(kind).name; }
 
 Step::Step(MovingVertices vertices, Mesh mesh, const StepOptions& options) {
-  if (options.max_threads < 0) {
-    throw std::invalid_argument("step: max_threads must not be negative");
-  }
-  scene_ = with_threads(options.max_threads, [&] {
+  require_valid(options.solve);
+  scene_ = with_threads(options.solve.max_threads, [&] {
     return std::make_unique<const Scene>(std::move(vertices), std::move(mesh), options);
   });
 }
@@ -683,7 +681,12 @@ Separation Step::separation_of(PairKind kind, const IndexPair& pair) const {
 
 const MovingVertices& Step::vertices() const { return scene_->vertices(); }
 
-const CertifiedOptions& Step::options() const { return scene_->certified(); }
+StepOptions Step::options() const {
+  return {.solve = scene_->certified(),
+          .groups = groups(),
+          .can_collide = scene_->can_collide(),
+          .stop = scene_->stop()};
+}
 
 const Mesh& Step::mesh() const { return scene_->mesh(); }
 

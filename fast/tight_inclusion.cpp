@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "fast/kernels.hpp"
 #include "fast/method.hpp"
 #include "fast/platform/arithmetic_check.hpp"
 #include "fast/tight_inclusion/curved_box_kernel.hpp"
@@ -376,7 +375,6 @@ class TightInclusionMethod final : public Method {
 
   void solve(const Queries& queries, std::span<Answer> answers,
              const MethodOptions& options) const override {
-    const UseKernels use(kernels_);
     const TightInclusionOptions all{.tolerance = options.tolerance,
                                     .max_checks = options.max_checks,
                                     .separation = options.separation,
@@ -400,7 +398,6 @@ class TightInclusionMethod final : public Method {
                    .norms = {Norm::linf},
                    .is_tolerance_driven = true,
                    .filter = error_filter};
-  Kernels kernels_ = chosen_kernels();
 };
 
 }  // namespace

@@ -158,8 +158,11 @@ TouchstoneLineSearchOptions given(const TouchstoneLineSearchOptions* options) {
                "touchstone_default_line_search_options");
 }
 
-Separation separation_of(const TouchstoneOptions& options) {
-  return {.distance = options.min_separation, .norm = norm_of(options.norm)};
+fast::CertifiedOptions certified_of(const TouchstoneOptions& options) {
+  return {.toi_tolerance = options.toi_tolerance,
+          .t_max = options.t_max,
+          .separation = {.distance = options.min_separation, .norm = norm_of(options.norm)},
+          .max_threads = options.max_threads};
 }
 
 TouchstoneImpact impact_of(const fast::CertifiedResult& result) {
@@ -175,10 +178,7 @@ Query query_of(const double* coordinates) {
 
 void solve(std::int32_t kind, std::size_t count, const double* coordinates,
            const TouchstoneOptions& options, TouchstoneImpact* impacts) {
-  const fast::CertifiedOptions certified{.toi_tolerance = options.toi_tolerance,
-                                         .t_max = options.t_max,
-                                         .separation = separation_of(options),
-                                         .max_threads = options.max_threads};
+  const fast::CertifiedOptions certified = certified_of(options);
   if (count == 1) {
     const Query query = query_of(coordinates);
     required(impacts, "impacts") = impact_of(fast::solve(kind_of(kind), query, certified));
@@ -186,7 +186,7 @@ void solve(std::int32_t kind, std::size_t count, const double* coordinates,
   }
   const auto queries = copied<Query>(coordinates, count, "coordinates");
   std::vector<fast::CertifiedResult> results(count);
-  fast::solve(kind_of(kind), queries, results, certified);
+  fast::solve({kind_of(kind), queries}, results, certified);
   if (count > 0) std::ranges::transform(results, &required(impacts, "impacts"), impact_of);
 }
 
@@ -252,13 +252,10 @@ fast::Step step_of(const TouchstoneMesh& mesh, const TouchstoneOptions& options)
                      3 * mesh.vertices);
   };
   fast::Mesh elements = elements_of(mesh);
-  return {coordinates(mesh.before, "before"), coordinates(mesh.after, "after"), std::move(elements),
-          fast::StepOptions{.separation = separation_of(options),
-                            .toi_tolerance = options.toi_tolerance,
-                            .t_max = options.t_max,
-                            .max_threads = options.max_threads,
-                            .groups = groups_of(mesh),
-                            .can_collide = rule_of(mesh)}};
+  return {
+      coordinates(mesh.before, "before"), coordinates(mesh.after, "after"), std::move(elements),
+      fast::StepOptions{
+          .solve = certified_of(options), .groups = groups_of(mesh), .can_collide = rule_of(mesh)}};
 }
 
 TouchstonePair pair_of(fast::PairKind kind, const fast::IndexPair& pair) {

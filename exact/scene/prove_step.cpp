@@ -129,7 +129,7 @@ class StepProver : private ProofWriter {
     try {
       scene_.require_within_limit(step_.vertices().size());
       const std::optional<FirstContact> first = first_contact(step_);
-      end_ = first ? first->certificate.toi.lower : Rational(step_.options().t_max);
+      end_ = first ? first->certificate.toi.lower : Rational(decisions_.t_max);
       const bool is_at_zero = first && sgn(first->certificate.toi.upper) == 0;
       const std::vector<Pair> pairs = is_at_zero ? std::vector<Pair>() : needed_pairs();
       require_few_arguments(pairs.size());
@@ -181,7 +181,7 @@ class StepProver : private ProofWriter {
   }
 
   void write_claim(const std::optional<FirstContact>& first) {
-    StepClaim claim{.separation = step_.options().separation, .end = end_};
+    StepClaim claim{.separation = decisions_.separation, .end = end_};
     if (first) {
       claim.earliest = {.upper = first->certificate.toi.upper,
                         .name = first->name,
@@ -238,10 +238,10 @@ class StepProver : private ProofWriter {
   [[nodiscard]] std::vector<Pair> needed_pairs() {
     // A bound of the distances at which pairs are in contact.
     const double greatest =
-        step_.options().separation.distance + fast::scene_of(step_).greatest_thickness();
+        decisions_.separation.distance + fast::scene_of(step_).greatest_thickness();
     places_.emplace(step_.vertices(), greatest, end_);
     // The checker's integers may bring boxes a little nearer.
-    Separation wider = step_.options().separation;
+    Separation wider = decisions_.separation;
     wider.distance += places_->uncertainty();
     const fast::Step near = step_.with_separation(wider);
     std::vector<Pair> pairs;
@@ -343,6 +343,7 @@ class StepProver : private ProofWriter {
   }
 
   const fast::Step& step_;
+  const fast::CertifiedOptions& decisions_ = fast::scene_of(step_).certified();
   const ListedScene& scene_;
   /// The time up to which there is no contact.
   Rational end_;
@@ -358,14 +359,9 @@ SceneProof prove_step(const fast::Step& step, const SceneProofOptions& options) 
   }
   const ListedScene listed(step.mesh(), step.groups());
   if (step.mesh().edges == listed.mesh.edges) return StepProver(step, listed, options).run();
-  const fast::CertifiedOptions& decisions = step.options();
-  const fast::Step in_order(step.vertices(), listed.mesh,
-                            {.separation = decisions.separation,
-                             .toi_tolerance = decisions.toi_tolerance,
-                             .t_max = decisions.t_max,
-                             .max_threads = decisions.max_threads,
-                             .groups = listed.rules,
-                             .stop = scene.stop()});
+  const fast::Step in_order(
+      step.vertices(), listed.mesh,
+      {.solve = scene.certified(), .groups = listed.rules, .stop = scene.stop()});
   return StepProver(in_order, listed, options).run();
 }
 

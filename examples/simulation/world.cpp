@@ -162,11 +162,11 @@ fast::Step World::step(const Eigen::VectorXd& x0, const Eigen::VectorXd& x1,
   const auto span = [](const Eigen::VectorXd& x) {
     return std::span<const double>(x.data(), static_cast<std::size_t>(x.size()));
   };
-  return {
-      span(x0),
-      span(x1),
-      {.faces = faces_},
-      {.separation = separation, .groups = {.of_vertices = groups_, .apart = obstacles_apart_}}};
+  return {span(x0),
+          span(x1),
+          {.faces = faces_},
+          {.solve = {.separation = separation},
+           .groups = {.of_vertices = groups_, .apart = obstacles_apart_}}};
 }
 
 }  // namespace touchstone::simulation

@@ -25,9 +25,9 @@ void require_valid(const CertifiedOptions& options) {
 }
 
 CertifiedResult result_of(const std::optional<ExactImpact>& impact) {
-  if (!impact) return {.verdict = Verdict::no, .stage = Stage::exact};
+  if (!impact) return {.verdict = Verdict::no, .is_exact = true};
   return {.verdict = Verdict::yes,
-          .stage = Stage::exact,
+          .is_exact = true,
           .toi_lower = impact->toi_lower,
           .toi_upper = impact->toi_upper,
           .u = impact->u,
@@ -35,7 +35,7 @@ CertifiedResult result_of(const std::optional<ExactImpact>& impact) {
 }
 
 CertifiedResult decided_exactly(Kind kind, const Query& query, const CertifiedOptions& options) {
-  if (!is_finite(query)) return {.verdict = Verdict::error, .stage = Stage::exact};
+  if (!is_finite(query)) return {.verdict = Verdict::error, .is_exact = true};
   return result_of(
       decide_exactly(kind, query, options.separation, options.toi_tolerance, options.t_max));
 }
@@ -44,7 +44,7 @@ CertifiedResult decided_exactly(const Queries& queries, std::size_t i,
                                 const CertifiedOptions& options) {
   if (queries.is_straight()) return decided_exactly(queries.kind, queries.straight()[i], options);
   const CurvedQuery query = to_curved(queries, i);
-  if (!exact_stage::is_valid(query)) return {.verdict = Verdict::error, .stage = Stage::exact};
+  if (!exact_stage::is_valid(query)) return {.verdict = Verdict::error, .is_exact = true};
   return result_of(decide_exactly(queries.kind, query, options.separation, options.toi_tolerance,
                                   options.t_max));
 }
@@ -53,13 +53,12 @@ std::optional<CertifiedResult> result_of(const KernelImpact& impact,
                                          const CertifiedOptions& options) {
   // (Where the time of impact is 0, both are.)
   if (impact.toi_lower >= options.t_max && impact.toi_upper > 0.0) {
-    return CertifiedResult{.verdict = Verdict::no, .stage = Stage::bisection};
+    return CertifiedResult{.verdict = Verdict::no};
   }
   if (impact.toi_upper > options.t_max || options.toi_tolerance < least_kernel_tolerance) {
     return std::nullopt;
   }
   return CertifiedResult{.verdict = Verdict::yes,
-                         .stage = Stage::bisection,
                          .toi_lower = impact.toi_lower,
                          .toi_upper = impact.toi_upper,
                          .u = impact.u,
@@ -72,21 +71,14 @@ void decide_elements(KernelInput block, double t_limit, const CertifiedOptions& 
                      const std::function<void(std::size_t, const CertifiedResult&)>& report) {
   const KernelOutput& output = run_kernel(block, t_limit, options, kernel, tetrahedron);
   for (std::size_t i = 0; i < output.one_sided.count; ++i) {
-    report(output.one_sided.items[i], {.verdict = Verdict::yes,
-                                       .stage = Stage::determinant,
-                                       .start = -1,
-                                       .toi_lower = 0.0,
-                                       .toi_upper = 0.0});
-  }
-  for (std::size_t i = 0; i < output.rejected.count; ++i) {
-    report(output.rejected.items[i],
-           {.verdict = Verdict::no, .stage = Stage::bisection, .start = 1});
+    report(output.one_sided.items[i],
+           {.verdict = Verdict::yes, .start = -1, .toi_lower = 0.0, .toi_upper = 0.0});
   }
   report_contacts(
       output, options,
       [&](std::size_t index) {
         const Query element = tetrahedron(index);
-        CertifiedResult result{.stage = Stage::exact};
+        CertifiedResult result{.is_exact = true};
         if (!is_finite(element)) return result;
         const ExactInversion found =
             decide_inversion_exactly(element, options.t_max, block.kept_volume);
@@ -98,7 +90,7 @@ void decide_elements(KernelInput block, double t_limit, const CertifiedOptions& 
         return result;
       },
       [&](std::size_t index, CertifiedResult result) {
-        if (result.stage == Stage::bisection) result.start = 1;
+        if (!result.is_exact) result.start = 1;
         result.u = result.v = no_number;
         report(index, result);
       });

@@ -61,18 +61,6 @@ void for_each_kernel_block(std::size_t size, int max_threads, std::size_t blocks
   });
 }
 
-/// Calls mark(index, stage) for every query of the block without contact that a stage after the
-/// first has decided.
-template <class Mark>
-void mark_stages(const KernelOutput& output, const Mark& mark) {
-  const auto mark_all = [&](const KernelOutput::List<std::uint32_t>& list, Stage stage) {
-    for (std::size_t i = 0; i < list.count; ++i) mark(list.items[i], stage);
-  };
-  mark_all(output.separated_in_direction, Stage::direction);
-  mark_all(output.one_sided, Stage::determinant);
-  mark_all(output.rejected, Stage::bisection);
-}
-
 /// Passes on the results of the block's queries that may have a contact: report(index, result).
 /// \param exactly(index) decides a query exactly
 template <class Exactly, class Report>
@@ -136,8 +124,7 @@ const KernelOutput& decide_block(KernelInput block, double t_limit, const Certif
 }
 
 /// The result of elements that decide_elements reports none of.
-inline constexpr CertifiedResult free_of_inversion{
-    .verdict = Verdict::no, .stage = Stage::determinant, .start = 1};
+inline constexpr CertifiedResult free_of_inversion{.verdict = Verdict::no, .start = 1};
 
 /// The same of elements, which invert when no more than `block.kept_volume` of their volume is
 /// left. Inversions after t_limit may be left out; the results of the others do not depend on it.

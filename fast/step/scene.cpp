@@ -15,15 +15,6 @@
 namespace touchstone::fast {
 namespace {
 
-CertifiedOptions certified_options(const StepOptions& options) {
-  const CertifiedOptions result{.toi_tolerance = options.toi_tolerance,
-                                .t_max = options.t_max,
-                                .separation = options.separation,
-                                .max_threads = options.max_threads};
-  require_valid(result);
-  return result;
-}
-
 /// \throws as Step.
 CertifiedOptions with_separation(CertifiedOptions options, const Separation& separation) {
   options.separation = separation;
@@ -210,10 +201,10 @@ SceneGroups::SceneGroups(const SceneMesh& mesh, const FloatBounds& bounds)
 
 Scene::Scene(MovingVertices vertices, Mesh mesh, const StepOptions& options)
     : vertices_(checked(std::move(vertices), mesh)),
-      certified_(certified_options(options)),
+      certified_(options.solve),
       stop_(options.stop),
-      kernel_(certified_kernel(chosen_kernels())),
-      search_(search_kernel(chosen_kernels())),
+      kernel_(certified_kernel(certified_.kernels)),
+      search_(search_kernel(certified_.kernels)),
       mesh_(checked(std::make_shared<const SceneMesh>(vertices_.size(), std::move(mesh), options),
                     certified_.separation)),
       bounds_(bounds_up_to(1.0)),
@@ -355,7 +346,7 @@ void Scene::find_inversions(const CertifiedOptions& options, double kept_volume,
         block.faces = triangles.data() + first;
       }
       decide_elements(
-          block, t_limit, options, certified_kernel(chosen_kernels()),
+          block, t_limit, options, kernel_,
           [&](std::size_t index) { return query_of(kind, number(index)); },
           [&](std::size_t index, const CertifiedResult& result) {
             if (result.verdict != Verdict::yes) return;

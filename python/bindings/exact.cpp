@@ -189,9 +189,9 @@ py::tuple prove_step(const Doubles& before, const Doubles& after, const Integers
   fast::MovingVertices vertices = vertices_of(before, after);
   fast::Mesh mesh = mesh_from(faces, edges, points, tetrahedra, plane_triangles);
   const fast::StepOptions of_step{
-      .separation = separation_from(separation, norm),
-      .t_max = t_max,
-      .max_threads = threads,
+      .solve = {.t_max = t_max,
+                .separation = separation_from(separation, norm),
+                .max_threads = threads},
       .groups = groups_from(groups, apart, radii, separated, separations),
       .stop = &stop};
   return scene_proof(label, threads, stop, progress, [&](const auto& options) {

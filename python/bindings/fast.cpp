@@ -53,7 +53,7 @@ py::dict certified_layout() {
   using Result = fast::CertifiedResult;
   return Layout(sizeof(Result))
       .add("collides", "?", offsetof(Result, verdict))
-      .add("stage", "u1", offsetof(Result, stage))
+      .add("exact", "?", offsetof(Result, is_exact))
       .add("toi_lower", "f8", offsetof(Result, toi_lower))
       .add("toi_upper", "f8", offsetof(Result, toi_upper))
       .add("u", "f8", offsetof(Result, u))

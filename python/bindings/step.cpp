@@ -191,10 +191,10 @@ class StoppableStep {
     fast::Mesh mesh = mesh_from(faces, edges, points, tetrahedra, plane_triangles);
     fast::MovingVertices vertices = vertices_of(before, after);
     const fast::StepOptions options{
-        .separation = separation_from(separation, norm),
-        .toi_tolerance = toi_tolerance,
-        .t_max = t_max,
-        .max_threads = is_forked() ? 1 : threads,
+        .solve = {.toi_tolerance = toi_tolerance,
+                  .t_max = t_max,
+                  .separation = separation_from(separation, norm),
+                  .max_threads = is_forked() ? 1 : threads},
         .groups = groups_from(groups, apart, radii, separated, separations),
         .can_collide = rule_from(can_collide),
         .stop = stop_.get()};

@@ -53,16 +53,6 @@ def run_batch(
     return out
 
 
-class Stage(IntEnum):
-    """The stages of the certified solver, cheapest first."""
-
-    AXIS = 0
-    DIRECTION = 1
-    DETERMINANT = 2
-    BISECTION = 3
-    EXACT = 4
-
-
 class CertifiedResult(BatchResult):
     """Answers of the certified solver."""
 
@@ -71,7 +61,7 @@ class CertifiedResult(BatchResult):
     toi_upper: Doubles = column("Not below the time of impact; NaN without a collision.")
     u: Doubles = column("The first parameter of the contact, without a bound; NaN without a collision.")
     v: Doubles = column("The second parameter of the contact, without a bound; NaN without a collision.")
-    stage: npt.NDArray[np.uint8] = column("The number of the stage that decided: see `Stage`.")
+    exact: Booleans = column("True if the last stage decided, in exact arithmetic.")
 
 
 class Verdict(IntEnum):
@@ -196,7 +186,7 @@ def solve(
     Returns
     -------
     CertifiedResult
-        Without `method`, with the arrays `collides`, `toi_lower`, `toi_upper`, `u`, `v` and `stage`.
+        Without `method`, with the arrays `collides`, `toi_lower`, `toi_upper`, `u`, `v` and `exact`.
     Answers
         With it, `verdict`, `collides`, `toi_lower`, `toi_upper`, `tolerance` and `checks`.
 

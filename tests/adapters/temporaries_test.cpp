@@ -61,7 +61,7 @@ std::function<bool(std::int32_t, std::int32_t)> rule() {
 
 /// Contact is a distance of 1/4, of the separation or of the groups.
 fast::StepOptions of_separation() {
-  return {.separation = {.distance = 0.25, .norm = Norm::l2}, .can_collide = rule()};
+  return {.solve = {.separation = {.distance = 0.25, .norm = Norm::l2}}, .can_collide = rule()};
 }
 fast::StepOptions of_groups() {
   return {.groups = {.of_vertices = {0, 0, 0, 1, 1, 1},
@@ -100,7 +100,7 @@ const std::vector<std::function<Step()>> steps{
     [] { return Step(vertices(), mesh(), of_groups()).with_places(vertices(), {}); },
     [] {
       return Step(vertices(), mesh(), {.can_collide = rule()})
-          .with_separation(of_separation().separation);
+          .with_separation(of_separation().solve.separation);
     },
     [] { return Step(vertices(), mesh(), of_separation()).scaled(1.0); },
     [] {

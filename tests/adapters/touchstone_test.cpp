@@ -131,7 +131,7 @@ TEST(CInterface, DecidesInversions) {
   for (const auto& [kind, code] : {std::pair(Kind::tetrahedron, TOUCHSTONE_TETRAHEDRON),
                                    std::pair(Kind::plane_triangle, TOUCHSTONE_PLANE_TRIANGLE)}) {
     std::vector<fast::CertifiedResult> expected(queries.size());
-    fast::solve(kind, queries, expected);
+    fast::solve({kind, queries}, expected);
     std::vector<TouchstoneImpact> found(queries.size());
     ASSERT_EQ(touchstone_solve(code, queries.size(), queries[0].coordinates.data(), nullptr,
                                found.data()),

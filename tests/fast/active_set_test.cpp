@@ -214,9 +214,10 @@ TEST(ActiveSet, IsTheCollisionsAtThatSeparationInOrder) {
       const double eta = random.coin() ? shape.separation : 0.0;
       // The separation of the step does not matter.
       const auto contacts =
-          active_set(scene.step({.separation = {.distance = 3 * shape.separation}}),
+          active_set(scene.step({.solve = {.separation = {.distance = 3 * shape.separation}}}),
                      {.distance = eta, .norm = norm});
-      auto collisions = scene.step({.separation = {.distance = eta, .norm = norm}}).collisions();
+      auto collisions =
+          scene.step({.solve = {.separation = {.distance = eta, .norm = norm}}}).collisions();
       std::ranges::sort(collisions, {}, [](const StepCollision& one) {
         return std::tuple(one.toi_lower, one.toi_upper, one.kind, one.pair);
       });

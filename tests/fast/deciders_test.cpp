@@ -66,6 +66,11 @@ void solve_exactly(Kind kind, std::span<const Query> queries, std::span<Certifie
   }
 }
 
+void solve_certified(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
+                     const CertifiedOptions& options) {
+  solve({kind, queries}, results, options);
+}
+
 void solve_points(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
                   const CertifiedOptions& options) {
   for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -160,7 +165,7 @@ void solve_curves(Kind kind, std::span<const Query> queries, std::span<Certified
 }
 
 constexpr std::array<Decider, 7> deciders{
-    {{"certified", &solve, true},
+    {{"certified", &solve_certified, true},
      {"exact stage", &solve_exactly, true},
      {"general exact stage", &solve_in<exact_stage::BigInteger>, false},
      {"exact stage in one limb", &solve_in<exact_stage::FixedInteger<1>>, false},
@@ -436,8 +441,8 @@ void expect_place(const PosedQuery& posed, const CertifiedResult& result,
 void expect_truth(const Decider& decider, const PosedQuery& posed, const exact::Decision& truth,
                   const CertifiedResult& result, const CertifiedOptions& options) {
   const auto wrong = tests::fault(posed.kind, truth, result, options);
-  ASSERT_FALSE(wrong) << decider.name << ": " << *wrong << " [" << to_string(result.stage)
-                      << "] at " << options.separation.distance << " in "
+  ASSERT_FALSE(wrong) << decider.name << ": " << *wrong << (result.is_exact ? " exact" : "")
+                      << " at " << options.separation.distance << " in "
                       << to_string(options.separation.norm) << ": " << posed;
   if (result.verdict != Verdict::yes || options.t_max < 1.0) return;
   const auto collides_until = [&](double t_max) {
@@ -451,7 +456,7 @@ void expect_truth(const Decider& decider, const PosedQuery& posed, const exact::
     EXPECT_FALSE(collides_until(std::nextafter(least_time, 0.0))) << decider.name << ' ' << posed;
   }
   if (options.toi_tolerance > 1e-12) return;
-  const bool is_close = result.stage == Stage::exact && is_zero(options.separation);
+  const bool is_close = result.is_exact && is_zero(options.separation);
   if (decider.knows_the_place) {
     expect_place(posed, result, options.separation, exact::power_of_two(is_close ? -43 : -20));
   }

@@ -397,8 +397,8 @@ TEST(LeastDistance, IsThatOfAllPairs) {
       if (round % 4 == 3)
         tests::add_thickness(scene, std::min(0.5 * shape.separation, 1e300), random);
       // Neither separation nor end of the step matter.
-      const StepOptions options{.separation = {.distance = round % 2 * shape.separation},
-                                .t_max = 0.25};
+      const StepOptions options{
+          .solve = {.t_max = 0.25, .separation = {.distance = round % 2 * shape.separation}}};
       const double t = random_time(random);
       for (const Norm norm : norms) expect_least(scene, t, norm, {options});
       if (HasFatalFailure()) FAIL() << shape.name;
@@ -409,7 +409,8 @@ TEST(LeastDistance, IsThatOfAllPairs) {
   for (const double size : {0.01, 0.05}) {
     const tests::Scene scene = tests::soup(random, 60, size);
     for (const double t : {0.0, 0.3}) {
-      expect_least(scene, t, Norm::l2, {{.max_threads = 1}, {.max_threads = 0}});
+      expect_least(scene, t, Norm::l2,
+                   {{.solve = {.max_threads = 1}}, {.solve = {.max_threads = 0}}});
     }
     EXPECT_EQ(least_distance(scene.step()), least_of(scene, 0.0, Norm::l2)) << "by default";
   }
@@ -419,7 +420,7 @@ TEST(LeastDistance, IsThatOfAllPairs) {
 TEST(LeastDistance, HasTheNormThatSeparationsHaveByDefault) {
   tests::Places places(2, 3);
   places << 0, 0, 0, 0.9, 0.9, 0.9;
-  const Step step(places, places, {.points = {0, 1}}, {.separation = {.distance = 1.0}});
+  const Step step(places, places, {.points = {0, 1}}, {.solve = {.separation = {.distance = 1.0}}});
   EXPECT_GT(least_distance(step)->distance.lower, 1.0);
   EXPECT_TRUE(step.is_free());
   EXPECT_FALSE(step.with_separation({.distance = 1.0, .norm = Norm::linf}).is_free());

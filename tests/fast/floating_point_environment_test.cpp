@@ -94,7 +94,7 @@ requires(sizeof...(Numbers) > 1) void put(Bits& bits, Numbers... several) {
   (put(bits, several), ...);
 }
 void put(Bits& bits, const CertifiedResult& x) {
-  put(bits, x.verdict, x.stage, x.toi_lower, x.toi_upper, x.u, x.v);
+  put(bits, x.verdict, x.is_exact, x.toi_lower, x.toi_upper, x.u, x.v);
 }
 void put(Bits& bits, const StepCollision& x) {
   put(bits, x.kind, x.pair[0], x.pair[1], x.toi_lower, x.toi_upper, x.u, x.v);
@@ -161,7 +161,7 @@ std::function<Bits()> of_batches() {
         const CertifiedOptions options{.separation = {.distance = distance, .norm = Norm::l2},
                                        .max_threads = threads};
         for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-          solve(kind, kind == Kind::vertex_face ? faces : edges, results, options);
+          solve({kind, kind == Kind::vertex_face ? faces : edges}, results, options);
           for (const CertifiedResult& result : results) put(bits, result);
         }
       }

@@ -59,7 +59,7 @@ CertifiedResult inversion(const Query& tetrahedron, const CertifiedOptions& opti
 std::vector<CertifiedResult> inversions(Kind kind, const std::vector<Query>& queries,
                                         const CertifiedOptions& options = {}) {
   std::vector<CertifiedResult> results(queries.size());
-  solve(kind, queries, results, options);
+  solve({kind, queries}, results, options);
   return results;
 }
 
@@ -71,16 +71,16 @@ Query falling_to(double height) {
                        {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, height});
 }
 
-TEST(Inversion, EndsEachSortOfElementInItsStage) {
-  EXPECT_EQ(inversion(falling_to(0.5)).stage, Stage::determinant);
+TEST(Inversion, IsDecidedInFloatingPointUnlessItIsDegenerate) {
+  EXPECT_FALSE(inversion(falling_to(0.5)).is_exact);
   EXPECT_EQ(inversion(falling_to(0.5)).verdict, Verdict::no);
   const CertifiedResult through = inversion(falling_to(-3.0));
-  EXPECT_EQ(through.stage, Stage::bisection);
+  EXPECT_FALSE(through.is_exact);
   EXPECT_EQ(through.verdict, Verdict::yes);
   EXPECT_LT(through.toi_lower, 0.25);
   EXPECT_GE(through.toi_upper, 0.25);
   // Flat exactly at the end.
-  EXPECT_EQ(inversion(falling_to(0.0)).stage, Stage::exact);
+  EXPECT_TRUE(inversion(falling_to(0.0)).is_exact);
   EXPECT_EQ(inversion(falling_to(0.0)).toi_upper, 1.0);
   EXPECT_EQ(inversion(falling_to(0.0), {.t_max = 0.75}).verdict, Verdict::no);
   // Turned by 160 degrees about the z axis on straight lines: 6 V = 1 − 4 s² t (1−t) with s = sin
@@ -88,15 +88,15 @@ TEST(Inversion, EndsEachSortOfElementInItsStage) {
   const double c = std::cos(160 * 0x1.921fb54442d18p+1 / 180), s = std::sqrt(1 - c * c);
   const CertifiedResult turned = inversion(
       tests::moving({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0, c, s, 0, -s, c, 0, 0, 0, 1}));
-  EXPECT_EQ(turned.stage, Stage::bisection);
+  EXPECT_FALSE(turned.is_exact);
   EXPECT_EQ(turned.verdict, Verdict::no);
   EXPECT_EQ(turned.start, 1);
   // The other orientation, and none.
   Query mirrored = falling_to(-3.0);
   for (const std::size_t end : {0U, 1U}) mirrored.at(end, 3, 2) = -mirrored.at(end, 3, 2);
   const CertifiedResult inverted = inversion(mirrored);
-  EXPECT_EQ(std::tuple(inverted.verdict, inverted.start, inverted.stage),
-            std::tuple(Verdict::yes, -1, Stage::determinant));
+  EXPECT_EQ(std::tuple(inverted.verdict, inverted.start, inverted.is_exact),
+            std::tuple(Verdict::yes, -1, false));
   EXPECT_EQ(std::pair(inverted.toi_lower, inverted.toi_upper), std::pair(0.0, 0.0));
   const CertifiedResult flat = inversion(Query{});
   EXPECT_EQ(std::tuple(flat.verdict, flat.start, flat.toi_upper), std::tuple(Verdict::yes, 0, 0.0));
@@ -147,22 +147,19 @@ TEST(Inversion, AgreesWithTheOracleOnTetrahedra) {
   const std::vector<Query> all = elements(random, count);
   const auto results = inversions(Kind::tetrahedron, all);
   std::array<int, 3> starts{};
-  std::array<int, stage_count> stages{};
-  int first_times = 0;
+  int exact = 0, first_times = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const tests::InversionTruth truth = inversion_truth(all[i]);
     ASSERT_EQ(inversion_fault(truth, results[i]), std::nullopt) << i << ' ' << printed(all[i]);
     ++starts.at(static_cast<std::size_t>(truth.start + 1));
-    ++stages.at(static_cast<std::size_t>(results[i].stage));
+    exact += results[i].is_exact ? 1 : 0;
     first_times += truth.start > 0 && truth.inverts() ? 1 : 0;
   }
   for (const int some : starts) EXPECT_GT(some, count / 20);
-  for (const Stage stage : {Stage::determinant, Stage::bisection, Stage::exact}) {
-    EXPECT_GT(stages.at(static_cast<std::size_t>(stage)), count / 20) << to_string(stage);
-  }
   EXPECT_GT(first_times, count / 5);
   // The exact stage is for degenerate elements.
-  EXPECT_LT(stages.at(static_cast<std::size_t>(Stage::exact)), count / 3);
+  EXPECT_GT(exact, count / 20);
+  EXPECT_LT(exact, count / 3);
 }
 
 TEST(Inversion, AgreesWithTheOracleOnTriangles) {
@@ -240,8 +237,9 @@ TEST(Inversion, KeepsAPartOfTheVolume) {
 // ---- Ways to ask --------------------------------------------------------------------------------
 
 using Bits = std::array<std::uint64_t, 2>;
-std::tuple<Verdict, Stage, int, Bits> bits_of(const CertifiedResult& x) {
-  return {x.verdict, x.stage, x.start, std::bit_cast<Bits>(std::array{x.toi_lower, x.toi_upper})};
+std::tuple<Verdict, bool, int, Bits> bits_of(const CertifiedResult& x) {
+  return {x.verdict, x.is_exact, x.start,
+          std::bit_cast<Bits>(std::array{x.toi_lower, x.toi_upper})};
 }
 
 /// Alone, in an array and of a mesh, by every kernel and in every mode of the caller.
@@ -272,18 +270,21 @@ TEST(Inversion, HasTheSameBitsAnyWay) {
   }
   for (const CertifiedKernel* const kernel : certified_kernels()) {
     SCOPED_TRACE(to_string(kernel->instructions));
-    const UseKernels use({.certified = kernel});
     const tests::ChangedModes changed(tests::flush_to_zero | tests::subnormals_are_zero |
                                       tests::round_up);
-    const auto again = inversions(Kind::tetrahedron, all, {.max_threads = 1});
-    const auto triangles_again = inversions(Kind::plane_triangle, all);
-    const auto kept_again = inversions_keeping(all, 0.25, {.t_max = 0.75});
+    const auto again =
+        inversions(Kind::tetrahedron, all, {.max_threads = 1, .kernels = {.certified = kernel}});
+    const auto triangles_again =
+        inversions(Kind::plane_triangle, all, {.kernels = {.certified = kernel}});
+    const auto kept_again =
+        inversions_keeping(all, 0.25, {.t_max = 0.75, .kernels = {.certified = kernel}});
     for (std::size_t i = 0; i < all.size(); ++i) {
       ASSERT_EQ(bits_of(again[i]), bits_of(of_tetrahedra[i])) << printed(all[i]);
       ASSERT_EQ(bits_of(triangles_again[i]), bits_of(of_triangles[i])) << printed(all[i]);
       ASSERT_EQ(bits_of(kept_again[i]), bits_of(of_kept[i])) << printed(all[i]);
     }
-    const Step step(start, end, {.tetrahedra = tetrahedra, .plane_triangles = faces});
+    const Step step(start, end, {.tetrahedra = tetrahedra, .plane_triangles = faces},
+                    {.solve = {.kernels = {.certified = kernel}}});
     std::vector<StepInversion> expected;
     for (const auto& [kind, results] : {std::pair(Kind::tetrahedron, &of_tetrahedra),
                                         std::pair(Kind::plane_triangle, &of_triangles)}) {
@@ -302,13 +303,13 @@ TEST(Inversion, HasTheSameBitsAnyWay) {
 
 /// The number of elements with a wrong answer.
 template <class Decide>
-int elements_that_find(Decide& decide) {
+int elements_that_find(Decide& decide, const Kernels& kernels) {
   Random random(5);
   int found = 0;
   const std::vector<Query> all = elements(random, 4000);
   for (const double kept : {0.0, 0.25}) {
     for (const double t_max : {1.0, 0.5}) {
-      const CertifiedOptions options{.t_max = t_max};
+      const CertifiedOptions options{.t_max = t_max, .kernels = kernels};
       const auto results = inversions_keeping(all, kept, options, decide);
       for (std::size_t i = 0; i < all.size(); ++i) {
         found += inversion_fault(inversion_truth(all[i], kept), results[i], options) ? 1 : 0;
@@ -318,15 +319,15 @@ int elements_that_find(Decide& decide) {
   for (std::size_t i = 0; i < 24; ++i) {
     Query query = falling_to(0.5);
     query.coordinates.at(i) = not_a_number;
-    const auto results = inversions_keeping({&query, 1}, 0.0, {}, decide);
+    const auto results = inversions_keeping({&query, 1}, 0.0, {.kernels = kernels}, decide);
     found += results[0].verdict == Verdict::error ? 0 : 1;
   }
   return found;
 }
 
 TEST(Inversion, ElementsFindPlantedFaults) {
-  const auto expect_found = [](std::string_view name, auto& decide) {
-    const int found = elements_that_find(decide);
+  const auto expect_found = [](std::string_view name, auto& decide, const Kernels& kernels = {}) {
+    const int found = elements_that_find(decide, kernels);
     std::printf("%s: found by %d elements\n", name.data(), found);
     EXPECT_GT(found, 0) << name;
   };
@@ -335,8 +336,7 @@ TEST(Inversion, ElementsFindPlantedFaults) {
   }
   for (const auto& planted : tests::planted_faults().inversion_kernel) {
     if (!planted.is_to_be_found()) continue;
-    const UseKernels use({.certified = planted.part});
-    expect_found(planted.name, decide_elements);
+    expect_found(planted.name, decide_elements, {.certified = planted.part});
   }
 }
 

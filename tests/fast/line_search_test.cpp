@@ -137,7 +137,7 @@ std::string first_fault(tests::LimitStep& limit_of, int rounds, Seen& seen) {
       const Norm norm = random.coin() ? Norm::l2 : Norm::linf;
       const double p = random.uniform(0.05, 0.95);
       const double t_max = random.between(0, 3) == 0 ? 0.25 * random.between(1, 4) : 1.0;
-      const Step step = scene.step({.t_max = t_max});
+      const Step step = scene.step({.solve = {.t_max = t_max}});
       const LineSearchLimit limit = limit_of(step, p, {.norm = norm});
       std::string what = fault(scene, limit, p, norm);
       if (limit.status == LineSearchStatus::whole && limit.step_size != t_max) what = "not whole";
@@ -232,7 +232,8 @@ TEST(LineSearch, IsTheSameForAllNumbersOfThreads) {
   const Scene scene = tests::soup(random, 200, 0.02);
   for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
     const LineSearchOptions options{.start_distance = start};
-    const auto expected = line_search_limit(scene.step({.max_threads = 1}), 0.5, options);
+    const auto expected =
+        line_search_limit(scene.step({.solve = {.max_threads = 1}}), 0.5, options);
     EXPECT_EQ(expected.status, LineSearchStatus::limited);
     for (int i = 0; i < 5; ++i) {
       const auto limit = line_search_limit(scene.step(), 0.5, options);
@@ -270,13 +271,13 @@ std::vector<Scene> falls() {
 long steps_until(Scene scene, double p, StartDistance start_distance, double until) {
   long steps = 0;
   for (double least = 1.0; least > until && !testing::Test::HasFailure(); ++steps) {
-    const auto limit =
-        line_search_limit(scene.step({.max_threads = 1}), p, {.start_distance = start_distance});
+    const auto limit = line_search_limit(scene.step({.solve = {.max_threads = 1}}), p,
+                                         {.start_distance = start_distance});
     EXPECT_EQ(limit.status, LineSearchStatus::limited);
     EXPECT_GT(limit.step_size, 0.0);
     EXPECT_EQ(limit.distance.lower, least);
     scene.start = Places(scene.start + limit.step_size * (scene.end - scene.start));
-    const double now = least_distance(scene.step({.max_threads = 1}))->distance.lower;
+    const double now = least_distance(scene.step({.solve = {.max_threads = 1}}))->distance.lower;
     EXPECT_LT(now, least);
     EXPECT_GE(now, p * least * (1.0 - 0x1p-50));
     EXPECT_LE(now, p * least * (1.0 + 0x1p-36));

@@ -52,7 +52,7 @@ Step step(const StepOptions& options = {}) {
 
 void solve_one(const CertifiedOptions& options) {
   CertifiedResult result;
-  solve(posed.kind, std::span(&posed.query, 1), std::span(&result, 1), options);
+  solve({posed.kind, std::span(&posed.query, 1)}, std::span(&result, 1), options);
 }
 
 /// All functions that take the options of the certified solver, with one option set.
@@ -69,19 +69,11 @@ std::vector<Refusal> of_solver(const std::string& name, const std::vector<double
   return {{name + "_of_certified", bad,
            with([](const auto& o) { (void)fast::solve(posed.kind, posed.query, o); })},
           {name + "_of_solve", bad, with(solve_one)},
-          {name + "_of_collisions", bad, with([](const auto& o) {
-             (void)collisions(posed.kind, std::span(&posed.query, 1), o);
-           })},
           {name + "_of_points", bad, with([](const auto& o) {
              const Eigen::Vector3d at(1, 2, 3);
              (void)solve_vertex_vertex(at, at, at, at, o);
            })},
-          {name + "_of_step", bad, with([](const auto& o) {
-             (void)step({.separation = o.separation,
-                         .toi_tolerance = o.toi_tolerance,
-                         .t_max = o.t_max,
-                         .max_threads = o.max_threads});
-           })}};
+          {name + "_of_step", bad, with([](const auto& o) { (void)step({.solve = o}); })}};
 }
 
 std::vector<Refusal> refusals() {
@@ -185,14 +177,14 @@ TEST(Refusals, OfElementsWithVolumes) {
 
 TEST(Refusals, OfSpansOfOtherLengths) {
   std::vector<CertifiedResult> results(2);
-  EXPECT_THROW(solve(posed.kind, std::span(&posed.query, 1), results), std::invalid_argument);
+  EXPECT_THROW(solve({posed.kind, std::span(&posed.query, 1)}, results), std::invalid_argument);
   std::vector<Distance> apart(2);
   EXPECT_THROW(distances(posed.kind, std::span(&posed.query, 1), 0.0, Norm::l2, apart),
                std::invalid_argument);
 }
 
-/// Functions without a verdict for each query name one, collisions() the first of them.
-TEST(Refusals, OfDistancesAndCollisionsOfWhatIsNotFinite) {
+/// Functions without a verdict for each query name the first one.
+TEST(Refusals, OfDistancesOfWhatIsNotFinite) {
   Query query = posed.query;
   query.coordinates[5] = infinity;
   EXPECT_THROW((void)distance(posed.kind, query, 0.5), std::domain_error);
@@ -202,12 +194,6 @@ TEST(Refusals, OfDistancesAndCollisionsOfWhatIsNotFinite) {
   const auto all = [&] { distances(posed.kind, queries, 0.0, Norm::l2, apart); };
   EXPECT_EQ(tests::message_of<std::domain_error>(all),
             "distances: query 777: a coordinate is not finite");
-  queries[900] = query;
-  for (const int threads : {0, 1}) {
-    const auto listed = [&] { (void)collisions(posed.kind, queries, {.max_threads = threads}); };
-    EXPECT_EQ(tests::message_of<std::domain_error>(listed),
-              "collisions: query 777: a coordinate is not finite");
-  }
 }
 
 /// The scene has 4 vertices, 1 face and 3 edges.

@@ -110,8 +110,7 @@ std::string fault_of_volumes(const Scene& scene, const StepOptions& options,
                 .toi_lower = one.toi_lower,
                 .toi_upper = one.toi_upper};
     }
-    const auto fault = tests::inversion_fault(
-        truth, result, {.toi_tolerance = options.toi_tolerance, .t_max = options.t_max});
+    const auto fault = tests::inversion_fault(truth, result, options.solve);
     if (fault && what.empty()) {
       what = *fault + ": " + std::string(to_string(kind)) + " " + std::to_string(i);
     }
@@ -134,8 +133,8 @@ std::string fault(const Scene& scene, const StepOptions& options) {
   for (const StepCollision& one : collisions) found[{one.kind, one.pair}] = one;
   if (found.size() != collisions.size()) return "a pair is found twice";
   for (const NumberedPair& pair : all.pairs()) {
-    const Separation separation{options.separation.distance + all.thickness(pair),
-                                options.separation.norm};
+    const Separation separation{options.solve.separation.distance + all.thickness(pair),
+                                options.solve.separation.norm};
     if (step.separation_of(pair.first, pair.second) != separation) {
       return "another separation: " + named(pair);
     }
@@ -155,8 +154,8 @@ std::string fault(const Scene& scene, const StepOptions& options) {
                 .u = one.u,
                 .v = one.v};
     }
-    const CertifiedOptions certified{
-        .toi_tolerance = options.toi_tolerance, .t_max = options.t_max, .separation = separation};
+    CertifiedOptions certified = options.solve;
+    certified.separation = separation;
     if (const auto what = tests::fault(kind, query, result, certified)) {
       return *what + ": " + named(pair);
     }
@@ -196,9 +195,9 @@ std::vector<Compared> compared_scenes(Random& random, int rounds, bool are_thick
   for (int round = 0; round < rounds; ++round) {
     for (const Shape& shape : shapes()) {
       StepOptions options;
-      options.separation.norm = random.coin() ? Norm::l2 : Norm::linf;
-      if (random.between(0, 2) == 0) options.separation.distance = shape.separation;
-      if (random.between(0, 3) == 0) options.t_max = 0.25 * random.between(0, 4);
+      options.solve.separation.norm = random.coin() ? Norm::l2 : Norm::linf;
+      if (random.between(0, 2) == 0) options.solve.separation.distance = shape.separation;
+      if (random.between(0, 3) == 0) options.solve.t_max = 0.25 * random.between(0, 4);
       Scene scene = random_scene(random, shape, random.between(1, 10));
       // (No thickness is above 2^1000, about 1e301.)
       if (are_thick) tests::add_thickness(scene, std::min(shape.separation, 1e300), random);
@@ -210,8 +209,9 @@ std::vector<Compared> compared_scenes(Random& random, int rounds, bool are_thick
     Scene scene = soup(random, 40, size);
     if (are_thick) tests::add_thickness(scene, 0.05, random);
     result.push_back({"soup", scene, {}});
-    result.push_back({"soup", scene, {.separation = {.distance = 0.02, .norm = Norm::l2}}});
-    result.push_back({"soup", scene, {.t_max = 0.3}});
+    result.push_back(
+        {"soup", scene, {.solve = {.separation = {.distance = 0.02, .norm = Norm::l2}}}});
+    result.push_back({"soup", scene, {.solve = {.t_max = 0.3}}});
     if (!are_thick) {
       for (int i = 0; i < scene.start.rows(); ++i) scene.groups.push_back(i / 60);
     }
@@ -232,8 +232,10 @@ std::vector<Compared> compared_scenes(Random& random, int rounds, bool are_thick
   return result;
 }
 
-std::string first_fault(const std::vector<Compared>& scenes) {
-  for (const auto& [name, scene, options] : scenes) {
+std::string first_fault(const std::vector<Compared>& scenes, const Kernels& kernels = {}) {
+  for (const auto& [name, scene, given] : scenes) {
+    StepOptions options = given;
+    options.solve.kernels = kernels;
     const std::string what = fault(scene, options);
     if (!what.empty()) return name + ": " + what;
   }
@@ -296,20 +298,21 @@ TEST(Step, MadeFromAnotherIsAStepOfItsOwn) {
   scene.radii = {0.01, 0.03};
   scene.can_collide = tests::random_rule(random);
   scene.edges = edges_of(scene.faces);
-  const StepOptions options{.separation = {.distance = 0.02, .norm = Norm::l2}, .t_max = 0.75};
+  const StepOptions options{
+      .solve = {.t_max = 0.75, .separation = {.distance = 0.02, .norm = Norm::l2}}};
   const Step expected = scene.step(options);
   Scene reversed = scene;
   std::swap(reversed.start, reversed.end);
   const Step expected_back = reversed.step(options);
   const std::vector<Edge> edges = std::exchange(scene.edges, {});
-  std::optional<Step> step(scene.step({.t_max = 0.75}));
-  const Step wider = step->with_separation(options.separation), part = step->scaled(0.5);
+  std::optional<Step> step(scene.step({.solve = {.t_max = 0.75}}));
+  const Step wider = step->with_separation(options.solve.separation), part = step->scaled(0.5);
   const Step back =
-      step->with_places(MovingVertices(reversed.start, reversed.end), options.separation);
+      step->with_places(MovingVertices(reversed.start, reversed.end), options.solve.separation);
   step.reset();
   EXPECT_EQ(part.mesh().edges, edges);
   EXPECT_EQ(part.is_free(), part.collisions().empty());
-  EXPECT_EQ(wider.options().separation, options.separation);
+  EXPECT_EQ(wider.options().solve.separation, options.solve.separation);
   EXPECT_EQ(in_order(wider.collisions()), in_order(expected.collisions()));
   EXPECT_EQ(in_order(back.collisions()), in_order(expected_back.collisions()));
   EXPECT_EQ(back.earliest(), expected_back.earliest());
@@ -323,7 +326,7 @@ TEST(Step, RefusesWhatMakesNoSense) {
   const auto refused = [&](const StepOptions& options) {
     return message_of<std::invalid_argument>([&] { (void)scene.step(options); });
   };
-  EXPECT_EQ(refused({.max_threads = -1}), "step: max_threads must not be negative");
+  EXPECT_EQ(refused({.solve = {.max_threads = -1}}), "certified: max_threads must not be negative");
   scene.groups = {0, 1};
   EXPECT_EQ(refused({}), "step: there are groups of 2 vertices, but 3 vertices");
   scene.groups = {0, -1, 0};
@@ -358,7 +361,7 @@ TEST(Step, RefusesWhatMakesNoSense) {
   scene.separations = {{{0, 1}, 0x1p1001}};
   EXPECT_EQ(refused({}), "step: the separations of groups must be at most 2^1000");
   scene.separations = {{{0, 1}, 0x1p1000}};
-  EXPECT_EQ(refused({.separation = {.distance = 0x1.fffffffffffffp1023}}),
+  EXPECT_EQ(refused({.solve = {.separation = {.distance = 0x1.fffffffffffffp1023}}}),
             "step: the separation of a pair would be infinite");
   scene.separations = {};
   scene.groups = {};
@@ -474,15 +477,15 @@ TEST(Step, IsTheSameForAllInstructionSetsAndThreads) {
     for (const double distance : {0.0, 0.01}) {
       if (distance > 0.0 && size < 0.1) tests::add_volumes(scene, 3000, 1000, random);
       if (distance > 0.0 && size > 0.1) tests::add_thickness(scene, 0.02, random);
-      StepOptions options{.separation = {.distance = distance, .norm = Norm::linf},
-                          .max_threads = 1};
+      StepOptions options{
+          .solve = {.separation = {.distance = distance, .norm = Norm::linf}, .max_threads = 1}};
       const Answers expected(scene.step(options));
       EXPECT_GT(expected.collisions.size(), 100U);
       for (const SearchKernel* const search : search_kernels()) {
         for (const CertifiedKernel* const kernel : certified_kernels()) {
           for (const int threads : {1, 2, 0}) {
-            const UseKernels use({.certified = kernel, .search = search});
-            options.max_threads = threads;
+            options.solve.kernels = {.certified = kernel, .search = search};
+            options.solve.max_threads = threads;
             EXPECT_EQ(Answers(scene.step(options)), expected)
                 << to_string(search->instructions) << ' ' << to_string(kernel->instructions);
           }
@@ -550,9 +553,9 @@ TEST(Step, EarliestFindsImpactsAtAnyTime) {
     ASSERT_EQ(impact->pairs.size(), 1U);
     EXPECT_EQ(impact->pairs[0].kind, PairKind::vertex_face);
     EXPECT_EQ(impact->pairs[0].pair, (IndexPair{1803, 600}));
-    EXPECT_FALSE(scene.step({.t_max = time}).is_free());
-    EXPECT_TRUE(scene.step({.t_max = std::nextafter(time, 0.0)}).is_free());
-    EXPECT_EQ(scene.step({.t_max = std::nextafter(time, 0.0)}).earliest(), std::nullopt);
+    EXPECT_FALSE(scene.step({.solve = {.t_max = time}}).is_free());
+    EXPECT_TRUE(scene.step({.solve = {.t_max = std::nextafter(time, 0.0)}}).is_free());
+    EXPECT_EQ(scene.step({.solve = {.t_max = std::nextafter(time, 0.0)}}).earliest(), std::nullopt);
   }
 }
 
@@ -563,7 +566,7 @@ TEST(ScaledStep, GoesToThePlacesThatASimulatorComputes) {
   Scene scene = soup(random, 20, 0.5);
   tests::add_volumes(scene, 100, 10, random);
   for (const double alpha : {0.0, 1.0, 0.1, 1e-300, 0.7}) {
-    const Step step = scene.step({.t_max = 0.25}).scaled(alpha);
+    const Step step = scene.step({.solve = {.t_max = 0.25}}).scaled(alpha);
     Scene taken = scene;
     for (Eigen::Index i = 0; i < scene.start.rows(); ++i) {
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -590,8 +593,8 @@ TEST(FreeStepSize, IsFreeAndTheNextDoubleIsNot) {
     for (const Shape& shape : {shapes()[2], shapes()[3], shapes()[1]}) {
       Scene scene = random_scene(random, shape, 8);
       const StepOptions options{
-          .separation = {.distance = random.coin() ? 0.0 : 0.01, .norm = Norm::linf},
-          .max_threads = 1};
+          .solve = {.separation = {.distance = random.coin() ? 0.0 : 0.01, .norm = Norm::linf},
+                    .max_threads = 1}};
       // (Rounding may avoid contacts of scenes on a grid that only graze.)
       if (round % 3 == 0 && shape.motion) tests::add_thickness(scene, 0.01, of_radii);
       if (round % 2 == 0) tests::add_volumes(scene, 4, 100, of_radii);
@@ -650,7 +653,7 @@ TEST(FreeStepSize, IsTheLargestWhereRoundingIsMonotone) {
 /// A step that is free up to its t_max has that step size, unless rounding moves it into a contact.
 TEST(FreeStepSize, IsUpToTheTimeThatCounts) {
   const auto size = [](const Scene& scene, double t_max, bool is_free) {
-    const Step step = scene.step({.t_max = t_max});
+    const Step step = scene.step({.solve = {.t_max = t_max}});
     EXPECT_EQ(step.is_free(), is_free) << t_max;
     return step.free_step_size();
   };
@@ -727,8 +730,8 @@ Work work_of(const Scene& scene, const Separation& separation = {}) {
                                         .curves = nullptr,
                                         .product_then_sum = nullptr};
   work_done = {};
-  const UseKernels use({.certified = &counting});
-  const Step step = scene.step({.separation = separation, .max_threads = 1});
+  const Step step = scene.step(
+      {.solve = {.separation = separation, .max_threads = 1, .kernels = {.certified = &counting}}});
   static_cast<void>(step.collisions());
   return work_done;
 }
@@ -799,7 +802,7 @@ TEST(Step, DoesAsMuchWorkWhereVerticesAreFarAway) {
 
 std::vector<NumberedPair> touching(const Scene& scene, const Separation& separation = {}) {
   std::vector<NumberedPair> result;
-  for (const StepCollision& one : scene.step({.separation = separation}).collisions()) {
+  for (const StepCollision& one : scene.step({.solve = {.separation = separation}}).collisions()) {
     result.emplace_back(one.kind, one.pair);
   }
   std::ranges::sort(result);
@@ -960,7 +963,8 @@ TEST(Sieve, LeavesOutNoneThatCollidesAndMostThatDoNot) {
                                   .norm = random.coin() ? Norm::l2 : Norm::linf};
       const double t_limit = random.coin() ? 1.0 : random.uniform(0.0, 0.02);
       // The time of the options has no effect.
-      const Pairs found = possible(scene.step({.separation = separation, .t_max = 0.5}), t_limit);
+      const Pairs found =
+          possible(scene.step({.solve = {.t_max = 0.5, .separation = separation}}), t_limit);
       const AllPairs all(scene);
       for (const NumberedPair& named : all.pairs()) {
         const Separation of_pair{separation.distance + all.thickness(named), separation.norm};
@@ -1096,8 +1100,8 @@ TEST(CurvedStep, RefusesWhatIsNoMotion) {
 TEST(Step, PlantedFaultsInTheFusedStageAreFound) {
   const auto expect_found = [](const auto& planted) {
     Random random(191);
-    const UseKernels use({.search = planted.part});
-    EXPECT_NE(first_fault(compared_scenes(random, 40)), "") << planted.name;
+    EXPECT_NE(first_fault(compared_scenes(random, 40), {.search = planted.part}), "")
+        << planted.name;
   };
   for (const auto& planted : tests::planted_faults().search) {
     // The next stage decides the pairs that these two let through; search_test.cpp finds these
@@ -1114,7 +1118,7 @@ TEST(Step, PlantedFaultsInTheFusedStageAreFound) {
 /// oneTBB loses memory with each arena, and with each thread of the caller's outside of one.
 TEST(Step, SearchesTakeNoMemoryThatTheyKeep) {
   const Places places = Places::Identity(3, 3);
-  Step step(places, places, {.faces = {{0, 1, 2}}}, {.max_threads = 2});
+  Step step(places, places, {.faces = {{0, 1, 2}}}, {.solve = {.max_threads = 2}});
   const auto search = [&](int count) {
     for (int i = 0; i < count; ++i) {
       step = step.with_places(MovingVertices(places, (1.0 + i) * places), {});
@@ -1145,7 +1149,7 @@ TEST(Step, DoesNotStoreCandidates) {
     const rlimit limits{.rlim_cur = limit, .rlim_max = limit};
     ::setrlimit(RLIMIT_AS, &limits);
     const Step step(places, places, {.edges = edges, .faces = {}, .points = {}},
-                    {.max_threads = 1});
+                    {.solve = {.max_threads = 1}});
     std::uint64_t found = 0;
     step.candidates([&](const StepCandidates& some) { found += some.pairs.size(); });
     if (found != std::uint64_t{count} * (count - 1) / 2) _exit(1);

@@ -20,7 +20,6 @@
 #include <string_view>
 #include <vector>
 
-#include "fast/kernels.hpp"
 #include "fast/method.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/floating_point_modes.hpp"
@@ -339,8 +338,7 @@ TEST(TightInclusion, FamiliesFindPlantedFaults) {
     EXPECT_GT(found, 0U) << fault.name;
   };
   for (const auto& fault : tests::planted_faults().box_kernel) {
-    const UseKernels use({.box = fault.part});
-    expect_found(fault, *tight_inclusion_method());
+    expect_found(fault, *tight_inclusion_method({.kernel = fault.part}));
   }
   for (const auto& fault : tests::planted_faults().tight_inclusion) {
     expect_found(fault, *fault.part());

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "fast/kernels.hpp"
 #include "verify/fuzz/recheck.hpp"
 
 namespace touchstone::tests {
@@ -30,7 +29,7 @@ class WithExactStage final : public fast::Method {
     for (std::size_t i = 0; i < answers.size(); ++i) {
       const Query& query = queries.straight()[i];
       fast::CertifiedResult result = fast::solve(queries.kind, query, all);
-      if (result.stage == fast::Stage::exact && result.verdict != fast::Verdict::error) {
+      if (result.is_exact && result.verdict != fast::Verdict::error) {
         const auto impact =
             decide_(queries.kind, query, all.separation, all.toi_tolerance, all.t_max);
         result = {.verdict = impact ? fast::Verdict::yes : fast::Verdict::no};
@@ -50,27 +49,22 @@ std::vector<FaultySolver> all_faulty_solvers() {
   const PlantedFaults& planted = planted_faults();
   std::vector<FaultySolver> all;
   for (const auto& fault : planted.box_kernel) {
-    all.push_back({fault, tight_inclusion, [part = fault.part] {
-                     const fast::UseKernels use({.box = part});
-                     return fast::tight_inclusion_method();
-                   }});
+    all.push_back({fault, tight_inclusion,
+                   [part = fault.part] { return fast::tight_inclusion_method({.kernel = part}); }});
   }
   for (const auto& fault : planted.tight_inclusion) {
     all.push_back({fault, tight_inclusion, [part = fault.part] { return part(); }});
   }
   for (const auto& fault : planted.certified_kernel) {
     all.push_back({fault, certified, [part = fault.part] {
-                     const fast::UseKernels use({.certified = part});
-                     return fast::certified_method();
+                     return fast::certified_method({.kernels = {.certified = part}});
                    }});
   }
   for (const auto& fault : planted.curved_kernel) {
-    all.push_back({fault, certified,
-                   [part = fault.part] {
-                     const fast::UseKernels use({.certified = part});
-                     return fast::certified_method();
-                   },
-                   true});
+    all.push_back(
+        {fault, certified,
+         [part = fault.part] { return fast::certified_method({.kernels = {.certified = part}}); },
+         true});
   }
   for (const auto& fault : planted.exact_stage) {
     all.push_back(

@@ -52,7 +52,7 @@ class Hash {
   }
   void add(const fast::CertifiedResult& result) {
     add(static_cast<std::uint64_t>(result.verdict));
-    add(static_cast<std::uint64_t>(result.stage));
+    add(std::uint64_t{result.is_exact});
     for (const double x : {result.toi_lower, result.toi_upper, result.u, result.v}) add(x);
   }
   void add(const fast::StepCollision& collision) {
@@ -119,9 +119,9 @@ std::vector<Query> queries_of(const std::filesystem::path& path) {
 std::uint64_t hash_of_certified(Kind kind, std::span<const Query> queries,
                                 const Separation& separation) {
   return common_hash(fast::certified_kernels(), [&](const fast::CertifiedKernel* kernel) {
-    const fast::UseKernels use({.certified = kernel});
     std::vector<fast::CertifiedResult> results(queries.size());
-    fast::solve(kind, queries, results, {.separation = separation, .max_threads = 1});
+    fast::solve({kind, queries}, results,
+                {.separation = separation, .max_threads = 1, .kernels = {.certified = kernel}});
     Hash hash;
     hash.add(results);
     return hash.value();
@@ -230,8 +230,9 @@ void print_steps() {
       const Sheets sheets(cells, seed);
       hash.add(common_hash(fast::certified_kernels(), [&](const fast::CertifiedKernel* kernel) {
         return common_hash(fast::search_kernels(), [&](const fast::SearchKernel* search) {
-          const fast::UseKernels use({.certified = kernel, .search = search});
-          return hash_of_step(sheets, {.separation = separation, .max_threads = 1});
+          return hash_of_step(
+              sheets,
+              {.solve = {.separation = separation, .max_threads = 1, .kernels = {kernel, search}}});
         });
       }));
     }

@@ -73,7 +73,7 @@ def test_t_max_is_exact():
     query[0], query[4] = [1, 1, 1], [1, 1, -1]
     assert touchstone.solve("vertex_face", query, t_max=0.5).collides
     assert not touchstone.solve("vertex_face", query, t_max=np.nextafter(0.5, 0)).collides
-    assert touchstone.Stage(int(touchstone.solve("vertex_face", query).stage)).name
+    assert touchstone.solve("vertex_face", query, t_max=0.5).exact and not touchstone.solve("vertex_face", query).exact
 
 
 @each_batch
@@ -213,7 +213,7 @@ def test_results_in_tables(queries):
     pandas = pytest.importorskip("pandas")
     result = touchstone.solve("edge_edge", queries)
     table = pandas.DataFrame(result.array)
-    assert list(table.columns) == ["collides", "stage", "toi_lower", "toi_upper", "u", "v"]
+    assert list(table.columns) == ["collides", "exact", "toi_lower", "toi_upper", "u", "v"]
     assert table.collides.sum() == result.collides.sum() > 0
     assert result._repr_html_().count("<tr>") == 11
     assert repr(result).startswith("CertifiedResult: 4000 queries, ")

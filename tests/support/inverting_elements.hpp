@@ -230,7 +230,7 @@ template <class Decide = decltype(fast::decide_elements)>
          .count = count,
          .queries = &tetrahedra[first],
          .kept_volume = kept},
-        options.t_max, options, fast::certified_kernel(fast::chosen_kernels()),
+        options.t_max, options, fast::certified_kernel(options.kernels),
         [&](std::size_t i) { return tetrahedra[first + i]; },
         [&](std::size_t i, const fast::CertifiedResult& found) { results[first + i] = found; });
   }

@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "fast/broad_phase/search.hpp"
-#include "fast/candidates.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/kernels.hpp"
 #include "touchstone/certified.hpp"
@@ -75,10 +74,12 @@ struct Arguments {
 };
 
 /// \throws std::invalid_argument if this processor cannot run it.
-const fast::CertifiedKernel* kernel_of(const std::string& name) {
-  if (name == best_kernel) return nullptr;
+fast::Kernels kernels_of(const std::string& name) {
+  if (name == best_kernel) return {};
   for (const fast::CertifiedKernel* const kernel : fast::certified_kernels()) {
-    if (fast::to_string(kernel->instructions) == name) return kernel;
+    if (fast::to_string(kernel->instructions) != name) continue;
+    return {.certified = kernel,
+            .search = fast::find_kernel(fast::search_kernels(), kernel->instructions)};
   }
   throw std::invalid_argument("this processor cannot run kernel " + name);
 }
@@ -313,6 +314,7 @@ class BenchRun {
         jobs::bench_step(mesh, {.repetitions = options_.repetitions,
                                 .threads = options_.threads,
                                 .separation = separation(),
+                                .kernels = arguments_.solvers.kernels,
                                 .on_progress = [&bar](double fraction) { bar.update(fraction); },
                                 .stop = &io::interrupted()});
     bar.clear();
@@ -376,13 +378,6 @@ class BenchRun {
     return status_of_queries(arguments_.sources, lines_.size());
   }
 
-  /// The options of the search of the chosen instruction set.
-  [[nodiscard]] const fast::SearchKernel* search_kernel() const {
-    const fast::CertifiedKernel* const kernel = arguments_.solvers.kernel;
-    if (kernel == nullptr) return nullptr;
-    return fast::find_kernel(fast::search_kernels(), kernel->instructions);
-  }
-
   const Arguments& arguments_;
   SourceArguments sources_;  // with the present separation and path
   Files files_;
@@ -390,8 +385,6 @@ class BenchRun {
   Output json_;
   Output page_;
   jobs::BenchOptions options_;
-  /// For the timed solvers of this thread.
-  fast::UseKernels kernels_{{.certified = arguments_.solvers.kernel, .search = search_kernel()}};
   nlohmann::json lines_ = nlohmann::json::array();
   bool is_wrong_ = false;
   std::set<std::string> errors_, warned_;
@@ -425,7 +418,7 @@ void add_bench_options(Command& command, Arguments& arguments) {
 /// The default methods, if the user names no solver.
 void settle(const Command& command, Arguments& arguments) {
   if (arguments.solvers.empty()) arguments.solvers.methods = solvers::default_methods();
-  arguments.solvers.kernel = kernel_of(arguments.kernel);
+  arguments.solvers.kernels = kernels_of(arguments.kernel);
   settle_solver_options(command, arguments.built_in_workload(), arguments.solvers);
 }
 

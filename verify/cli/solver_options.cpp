@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fast/kernels.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/query.hpp"
 #include "verify/cli/option_table.hpp"
@@ -223,9 +222,9 @@ Solvers::Solvers(Files& files, const SolverArguments& arguments, MethodHost host
 
 const fast::Method& Solvers::method_named(std::string_view name, const SolverArguments& arguments) {
   const fast::Method& method = solvers::find_any(name);
-  if (arguments.kernel == nullptr || name != fast::certified_info().name) return method;
-  const fast::UseKernels use({.certified = arguments.kernel});
-  methods_.push_back(fast::certified_method());
+  const bool is_chosen = arguments.kernels.certified != nullptr;
+  if (!is_chosen || name != fast::certified_info().name) return method;
+  methods_.push_back(fast::certified_method({.kernels = arguments.kernels}));
   return *methods_.back();
 }
 

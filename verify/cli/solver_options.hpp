@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "fast/certified/kernel.hpp"
 #include "fast/method.hpp"
+#include "touchstone/certified.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/fuzz/fuzz.hpp"
@@ -50,8 +50,8 @@ struct SolverArguments {
   fast::MethodOptions options;
   /// True if methods take no more checks than is usual in comparisons.
   bool has_usual_checks = false;
-  /// The kernel of the certified solver; null: the best one for this processor.
-  const fast::CertifiedKernel* kernel = nullptr;
+  /// The kernels of the certified solver, and of steps.
+  fast::Kernels kernels = {};
 
   /// The input files.
   [[nodiscard]] std::vector<std::filesystem::path> files() const;

@@ -62,13 +62,13 @@ class StepRun {
                                "a mesh intersect itself?)");
     }
     const mesh::Mesh& mesh = frames_->mesh();
-    options_.step.separation = arguments.separation.given();
+    options_.step.solve.separation = arguments.separation.given();
     NamedGroups groups =
         collision_groups(files_, arguments.groups, mesh, arguments.separation.given().norm);
     options_.step.groups = std::move(groups.rules);
     options_.step.stop = &io::interrupted();
     options_.find_contacts = json_ || csv_;
-    report_ = {.separation = options_.step.separation,
+    report_ = {.separation = options_.step.solve.separation,
                .group_names = std::move(groups.names),
                .groups = options_.step.groups,
                .question = options_.question,
@@ -119,7 +119,7 @@ class StepRun {
                                {.groups = options_.step.groups,
                                 .most = report::most_intersections + 1,
                                 .places = false,
-                                .max_threads = options_.step.max_threads,
+                                .max_threads = options_.step.solve.max_threads,
                                 .stop = options_.step.stop});
   }
 
@@ -150,7 +150,7 @@ class StepRun {
   void ask_for_proof(std::size_t i, const std::function<void(double)>& progress) {
     options_.proof = {
         .label = io::printable(frames_->name(i - 1)) + ' ' + io::printable(frames_->name(i)),
-        .max_threads = options_.step.max_threads,
+        .max_threads = options_.step.solve.max_threads,
         .on_text =
             [this](std::string_view text) {
               proof_.write(text);
@@ -217,9 +217,9 @@ void add_step_options(Command& command, Arguments& arguments) {
   add_option(command, "--free", asks(jobs::StepQuestion::free));
   add_option(command, "--candidates", arguments.check.count_candidates);
   add_option(command, "--no-intersections", arguments.no_intersections);
-  add_option(command, "--t-max", arguments.check.step.t_max);
+  add_option(command, "--t-max", arguments.check.step.solve.t_max);
   add_option(command, "--alpha", arguments.check.alpha);
-  add_option(command, "--threads", arguments.check.step.max_threads);
+  add_option(command, "--threads", arguments.check.step.solve.max_threads);
   begin_group(command, "Output");
   add_option(command, "--csv", arguments.csv_file);
   add_option(command, "--prove", arguments.proof_file);

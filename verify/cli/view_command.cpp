@@ -75,7 +75,7 @@ std::optional<view::ViewedStep> read_step(const Arguments& arguments, Files& fil
   mesh::Vertices before = frames->next(), after = frames->next();
   return view::find_collisions(fmt::format("{} to {}", frames->name(0), frames->name(1)),
                                frames->mesh(), std::move(before), std::move(after),
-                               {.separation = arguments.separation.given(),
+                               {.solve = {.separation = arguments.separation.given()},
                                 .groups = std::move(groups),
                                 .stop = &io::interrupted()});
 }

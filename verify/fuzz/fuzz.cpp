@@ -478,7 +478,7 @@ class FuzzRun {
     ++result_.all_findings;
     ++result_.generators[block_.makers[i]].findings;
     const Class what{std::string(charge.method), charge.diagnosis.what,
-                     to_text(block_.shape),      judged_[i].stage,
+                     to_text(block_.shape),      judged_[i].is_exact,
                      block_.makers[i],           is_slight(charge, answers_[i], verdict)};
     if (const auto known = classes_.find(what); known != classes_.end()) {
       ++result_.groups[known->second].count;
@@ -533,8 +533,8 @@ class FuzzRun {
   }
 
   /// The class of a finding, by its obvious properties: the method that is wrong, the fault, the
-  /// shape, the judge's stage, the generator, and whether a late time is slightly late.
-  using Class = std::tuple<std::string, judge::Fault, std::string, fast::Stage, std::size_t, bool>;
+  /// shape, whether the judge is exact, the generator, and whether a late time is slightly late.
+  using Class = std::tuple<std::string, judge::Fault, std::string, bool, std::size_t, bool>;
 
   const FuzzOptions& options_;
   const fast::Method& method_;

@@ -104,7 +104,8 @@ struct GeneratorStatistics {
 /// Findings that look alike from outside (Signature in recheck.hpp).
 struct FindingGroup {
   /// The number of all its findings. A finding with the solver, kind of finding, shape of query,
-  /// generator and judge's stage of a kept one is not examined further, but counted in its group.
+  /// generator and exactness of the judge of a kept one is not examined further, but counted in its
+  /// group.
   std::uint64_t count = 0;
   std::size_t best = 0;  ///< in FuzzResult::findings: the plainest kept finding
 };

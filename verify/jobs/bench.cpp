@@ -82,13 +82,11 @@ class Measuring {
     row_.nanoseconds = median(timed_.times());
     row_.certified_nanoseconds = median(certified_.times());
     row_.pass_nanoseconds = median(passes_);
-    row_.stages = solvers::count_stages(timed_.solver().info(), timed_.answers());
     const std::int64_t limit = row_.options.max_checks;
-    const bool has_stages = !row_.stages.empty();
     for (std::size_t i = 0; i < row_.timed; ++i) {
       if (timed_.why_unasked(i)) continue;
       const fast::Answer& answer = timed_.answers()[i];
-      const bool is_spent = limit > 0 && !has_stages && std::int64_t{answer.checks} >= limit;
+      const bool is_spent = limit > 0 && std::int64_t{answer.checks} >= limit;
       row_.at_limit += is_spent || answer.verdict == fast::Verdict::undecided ? 1U : 0U;
     }
   }

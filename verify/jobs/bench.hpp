@@ -75,8 +75,6 @@ struct BenchRow {
   double pass_nanoseconds = 0.0;       ///< of a pass that only reads the queries
   /// Empty if they were not timed.
   std::optional<SingleTimes> singles;
-  /// The stages that ended its queries; empty if it has none.
-  std::vector<solvers::StageCount> stages;
   /// Queries of the sample that it gave up, or that took as many checks as it may do.
   std::uint64_t at_limit = 0;
   /// The judgement on its answers to the queries that were judged.

@@ -102,7 +102,7 @@ StepCheck check_step(std::optional<fast::Step>& step, const mesh::Mesh& mesh,
   check.broad_phase = work_time_of([&] {
     fast::MovingVertices vertices(before, after);
     if (step) {
-      step.emplace(step->with_places(std::move(vertices), options.step.separation));
+      step.emplace(step->with_places(std::move(vertices), options.step.solve.separation));
     } else {
       step.emplace(std::move(vertices), mesh, options.step);
     }

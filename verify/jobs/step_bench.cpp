@@ -90,8 +90,8 @@ class StepMeasurement {
 
   [[nodiscard]] fast::Step step_with(int threads) const {
     fast::StepOptions options;
-    options.separation = options_.separation;
-    options.max_threads = threads;
+    options.solve = {
+        .separation = options_.separation, .max_threads = threads, .kernels = options_.kernels};
     options.stop = options_.stop;
     return {mesh_.vertices, {.edges = mesh_.edges, .faces = mesh_.faces, .points = {}}, options};
   }

@@ -25,6 +25,7 @@ struct StepBenchOptions {
   /// Timed with one thread and with this number of threads; 0: all cores.
   unsigned threads = 0;
   Separation separation = {};
+  fast::Kernels kernels = {};  ///< as CertifiedOptions has them
   /// Called occasionally with the completed fraction of the repetitions, from this thread.
   std::function<void(double)> on_progress = nullptr;
   /// Once true, no further repetition begins. May be null.

@@ -49,18 +49,6 @@ std::string setting_of(const jobs::BenchRow& row, const Varying& varying) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// "  ended by: axis 78.12 %, …"; empty for those without stages.
-std::string stages_text(const jobs::BenchRow& row) {
-  if (row.timed == 0) return {};
-  std::string text;
-  for (const solvers::StageCount& count : row.stages) {
-    const double share =
-        100.0 * static_cast<double>(count.queries) / static_cast<double>(row.timed);
-    text += fmt::format("{} {} {:.4g} %", text.empty() ? "  ended by:" : ",", count.stage, share);
-  }
-  return text;
-}
-
 io::TextRow cells_of(const jobs::BenchRow& row) {
   const judge::Judgement& judged = row.judgement;
   const double ns = row.nanoseconds;
@@ -86,12 +74,6 @@ std::vector<io::TextColumn> columns() {
 nlohmann::json json_of(const std::optional<jobs::SingleTimes>& singles) {
   if (!singles) return {};
   return {{"mean_ns", singles->mean}, {"p50_ns", singles->p50}, {"p99_ns", singles->p99}};
-}
-
-nlohmann::json json_of(const std::vector<solvers::StageCount>& stages) {
-  nlohmann::json json;
-  for (const solvers::StageCount& count : stages) json[std::string(count.stage)] = count.queries;
-  return json;
 }
 
 nlohmann::json json_of(const jobs::StepCounts& counts) {
@@ -120,8 +102,6 @@ std::string to_text(Rows rows) {
     cells = io::joined<std::string>({cells, cells_of(row)});
     if (shows_tolerances) cells.push_back(tolerance_cell(row.judgement));
     table.add(cells);
-    const std::string stages = stages_text(row);
-    if (!stages.empty()) table.add_line(stages);
   }
   text += table.text();
   for (const jobs::BenchRow& row : rows) {
@@ -205,7 +185,6 @@ nlohmann::json to_json(const jobs::BenchRow& row) {
                {"certified_ns_per_query", io::number_to_json(row.certified_nanoseconds)},
                {"pass_ns_per_query", io::number_to_json(row.pass_nanoseconds)},
                {"single", json_of(row.singles)},
-               {"stages", json_of(row.stages)},
                {"interrupted", row.interrupted}});
   json.update(judge::to_json(row.options.separation));
   return json;

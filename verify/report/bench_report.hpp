@@ -15,8 +15,8 @@ namespace touchstone::verify::report {
 /// A table: a line for each row with what its settings are, if they differ from others' of the
 /// table, its time a query in nanoseconds, the same as a multiple of the certified solver's and of
 /// the memory pass, the numbers of queries that were timed and judged, the collisions among these,
-/// the counts of the judge and the errors of the times of impact. Below it the share of the queries
-/// that each stage ended, and who broke a promise.
+/// the counts of the judge and the errors of the times of impact. Below it, who
+/// broke a promise.
 /// \pre the rows are of one source and kind, at least one
 [[nodiscard]] std::string to_text(std::span<const jobs::BenchRow> rows);
 
@@ -31,7 +31,7 @@ namespace touchstone::verify::report {
 /// `collisions` and the counts of judgement_report.hpp (of those judged), `at_limit`,
 /// `keeps_promise`; `ns_per_query`, `certified_ns_per_query`, `pass_ns_per_query` (medians of
 /// turns; null if there was none), `single` (null, or `mean_ns`, `p50_ns`, `p99_ns` of one call a
-/// query), `stages` (null, or the number of queries by the stage's name); `interrupted`.
+/// query); `interrupted`.
 [[nodiscard]] nlohmann::json to_json(const jobs::BenchRow& row);
 
 /// `step` (its name), `vertices`, `edges`, `faces`, `vertex_face` and `edge_edge` (`candidates` and

@@ -366,15 +366,4 @@ std::unique_ptr<Solver> recorded_solver(std::string_view name, const RecordedAns
   return std::make_unique<Recorded>(name, answers, terms);
 }
 
-std::vector<StageCount> count_stages(const fast::MethodInfo& info,
-                                     std::span<const fast::Answer> answers) {
-  std::vector<StageCount> counts;
-  for (const std::string_view stage : info.stages) counts.push_back({stage, 0});
-  for (const fast::Answer& answer : answers) {
-    const bool is_of_stage = answer.checks >= 1 && answer.checks <= counts.size();
-    if (is_of_stage) ++counts[answer.checks - 1].queries;
-  }
-  return counts;
-}
-
 }  // namespace touchstone::verify::solvers

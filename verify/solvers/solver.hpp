@@ -142,17 +142,4 @@ class Solver {
                                                       const RecordedAnswers& answers,
                                                       const fast::Terms& terms = {});
 
-/// The number of queries that a stage decided.
-struct StageCount {
-  std::string_view stage;
-  std::uint64_t queries = 0;
-
-  friend bool operator==(const StageCount&, const StageCount&) = default;
-};
-
-/// Number of answers by stage, all stages in their order; empty for a method without
-/// stages.
-[[nodiscard]] std::vector<StageCount> count_stages(const fast::MethodInfo& info,
-                                                   std::span<const fast::Answer> answers);
-
 }  // namespace touchstone::verify::solvers

@@ -88,7 +88,7 @@ ViewedStep find_collisions(std::string label, const mesh::Mesh& mesh, mesh::Vert
                     .after = std::move(after),
                     .faces = mesh.faces,
                     .codimensional_edges = edges_of_no_face(mesh),
-                    .separation = options.separation,
+                    .separation = options.solve.separation,
                     .collisions = step.collisions(),
                     .queries = {},
                     .separations = {},

@@ -99,11 +99,11 @@ namespace touchstone::adapters {
                                         Eigen::ConstRef<Eigen::MatrixXd> vertices_t1,
                                         double min_distance) {
   fast::Mesh elements = elements_of(mesh);
-  return {
-      places_of(mesh, vertices_t0),
-      places_of(mesh, vertices_t1),
-      std::move(elements),
-      {.separation = {.distance = min_distance, .norm = Norm::l2}, .can_collide = rule_of(mesh)}};
+  return {places_of(mesh, vertices_t0),
+          places_of(mesh, vertices_t1),
+          std::move(elements),
+          {.solve = {.separation = {.distance = min_distance, .norm = Norm::l2}},
+           .can_collide = rule_of(mesh)}};
 }
 
 /// The time at which the first pair of a step, with the separation min_distance, comes as near as

@@ -62,8 +62,6 @@
 #include <limits>
 #include <span>
 #include <stdexcept>
-#include <string_view>
-#include <vector>
 
 #include "touchstone/query.hpp"
 
@@ -82,19 +80,15 @@ enum class Verdict : std::uint8_t {
 /// The value of a number that an answer does not have: NaN.
 inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-/// The stages, cheapest first. Each decides a query or passes it to the next. `bisection` stands
-/// for five stages in floating point, from `orientation` on (fast/README.md).
-enum class Stage : std::uint8_t {
-  axis,         ///< a coordinate axis separates the primitives at all times
-  direction,    ///< one fixed direction separates them at all times
-  determinant,  ///< the determinant keeps its sign; of an element also its sign at t=0
-  bisection,    ///< signs on intervals of t
-  exact,        ///< exact arithmetic
-};
-inline constexpr std::size_t stage_count = 5;
+struct CertifiedKernel;
+struct SearchKernel;
 
-/// The name of the enumerator.
-[[nodiscard]] std::string_view to_string(Stage stage);
+/// Kernels that a test or a benchmark chooses; null: the best one for this processor
+/// (fast/kernels.hpp).
+struct Kernels {
+  const CertifiedKernel* certified = nullptr;
+  const SearchKernel* search = nullptr;
+};
 
 struct CertifiedOptions {
   /// The maximum width of the enclosure of the time of impact, relative to its upper end; finite,
@@ -108,13 +102,15 @@ struct CertifiedOptions {
   Separation separation = {};
   /// Maximum number of threads; 0 (all_cores): one for each core that the process may use.
   int max_threads = all_cores;
+  /// All kernels have the same results.
+  Kernels kernels = {};
 };
 
 struct CertifiedResult {
   /// yes or no, always right; error if a coordinate that has an effect is not finite, or a weight
   /// not positive and finite. Never undecided.
   Verdict verdict = Verdict::error;
-  Stage stage = Stage::axis;  ///< the stage that decided
+  bool is_exact = false;  ///< true if the exact stage decided
   /// Of an element: the sign of its volume at t=0, 1, 0 (flat) or −1 (inverted); else 0.
   std::int8_t start = 0;
   double toi_lower = no_number;  ///< with yes: below the time of impact; 0 if that is 0
@@ -138,23 +134,6 @@ struct CertifiedResult {
 /// query.
 void solve(const Queries& queries, std::span<CertifiedResult> results,
            const CertifiedOptions& options = {});
-void solve(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
-           const CertifiedOptions& options = {});
-
-/// A query that collides.
-struct Collision {
-  std::size_t candidate = 0;  ///< index of the query
-  CertifiedResult result;     ///< its verdict is yes
-};
-
-/// The queries that collide, in order. Faster than `solve`, because queries that do not collide
-/// have no result.
-/// \throws std::invalid_argument for options out of range; std::domain_error naming the first query
-/// with a number that makes its verdict `error`.
-[[nodiscard]] std::vector<Collision> collisions(const Queries& queries,
-                                                const CertifiedOptions& options = {});
-[[nodiscard]] std::vector<Collision> collisions(Kind kind, std::span<const Query> queries,
-                                                const CertifiedOptions& options = {});
 
 // ---- Points, as simulators have them ------------------------------------------------------------
 

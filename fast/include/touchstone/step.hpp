@@ -181,14 +181,9 @@ struct CollisionGroups {
 };
 
 struct StepOptions {
-  /// Primitives within this distance, and the thickness of their pair, are in contact.
-  Separation separation = {};
-  /// The width of times of impact, as in CertifiedOptions.
-  double toi_tolerance = 1e-12;
-  /// Only contacts up to this time count, in [0,1]. (`candidates` covers the whole step.)
-  double t_max = 1.0;
-  /// Maximum number of threads; 0 (all_cores): one for each core that the process may use.
-  int max_threads = all_cores;
+  /// The options of the decisions. Primitives within the separation, and the thickness of their
+  /// pair, are in contact. (`candidates` covers the whole step, whatever t_max is.)
+  CertifiedOptions solve = {};
   CollisionGroups groups = {};
   /// A rule for pairs of vertices, unless it is empty: two primitives can collide if it is true for
   /// a vertex of one and a vertex of the other that are in groups that can collide. It must be
@@ -368,8 +363,8 @@ class Step {
   }
 
   [[nodiscard]] const MovingVertices& vertices() const;
-  /// The options of the decisions on pairs without thickness.
-  [[nodiscard]] const CertifiedOptions& options() const;
+  /// The options that make it anew: Step(vertices(), mesh(), options()).
+  [[nodiscard]] StepOptions options() const;
   /// The elements, with the edges of the faces if none were given.
   [[nodiscard]] const Mesh& mesh() const;
   [[nodiscard]] const CollisionGroups& groups() const;

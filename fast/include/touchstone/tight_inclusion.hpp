@@ -70,6 +70,8 @@ namespace touchstone::fast {
 
 // ---- Tight-Inclusion ----------------------------------------------------------------------------
 
+struct BoxKernel;
+
 struct TightInclusionOptions {
   /// δ: a box is small if its image is at most this wide on each axis, in units of the coordinates;
   /// positive and finite.
@@ -86,6 +88,8 @@ struct TightInclusionOptions {
   /// query. It must be at least the filter of this kind and of the separation; the filter of
   /// vertex_face holds for both kinds.
   std::optional<std::array<double, 3>> scene_filter = std::nullopt;
+  /// For tests: null, or the kernel of queries on straight lines (fast/tight_inclusion/).
+  const BoxKernel* kernel = nullptr;
 };
 
 struct TightInclusionResult {

@@ -72,16 +72,16 @@ std::optional<AlgebraicNumber> earliest(const Scene& scene, const fast::StepOpti
   std::optional<AlgebraicNumber> first;
   const tests::AllPairs all(scene);
   for (const tests::NumberedPair& pair : all.pairs()) {
-    const Decision verdict =
-        decide(fast::Step::kind_of(pair.first), all.query(pair),
-               {options.separation.distance + all.thickness(pair), options.separation.norm});
+    const Decision verdict = decide(
+        fast::Step::kind_of(pair.first), all.query(pair),
+        {options.solve.separation.distance + all.thickness(pair), options.solve.separation.norm});
     if (verdict.toi && (!first || *verdict.toi < *first)) first = verdict.toi;
   }
   tests::for_each_volume(scene, [&](Kind, std::size_t, const Query& element) {
     const auto time = decide(Kind::tetrahedron, element).toi;
     if (time && (!first || *time < *first)) first = time;
   });
-  if (first && *first > Rational(options.t_max)) return std::nullopt;
+  if (first && *first > Rational(options.solve.t_max)) return std::nullopt;
   return first;
 }
 
@@ -98,7 +98,7 @@ void expect_true(const Scene& scene, const fast::StepOptions& options, const Sce
   const std::vector<double> times = numbers_of(proof.claim);
   if (!first) {
     EXPECT_TRUE(proof.claim.starts_with("no_contact ")) << proof.claim;
-    EXPECT_EQ(times, std::vector{options.t_max});
+    EXPECT_EQ(times, std::vector{options.solve.t_max});
     return;
   }
   ASSERT_TRUE(proof.claim.starts_with("earliest ")) << proof.claim;
@@ -169,9 +169,9 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
         with_thickness += scene.radii.empty() ? 0 : 1;
       }
       fast::StepOptions options;
-      if (random.coin()) options.separation.distance = shape.separation;
-      options.separation.norm = random.coin() ? Norm::l2 : Norm::linf;
-      if (random.coin()) options.t_max = random.coin() ? 0.25 : 0.0;
+      if (random.coin()) options.solve.separation.distance = shape.separation;
+      options.solve.separation.norm = random.coin() ? Norm::l2 : Norm::linf;
+      if (random.coin()) options.solve.t_max = random.coin() ? 0.25 : 0.0;
       if (seed % 2 == 0) tests::add_volumes(scene, 3, 8, random);
       const SceneProof proof = prove(scene, options);
       const std::string& text = proof.stream;
@@ -181,7 +181,7 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
         continue;
       }
       ++proved;
-      EXPECT_EQ(refusal(text, demand(proof.claim, options.separation)), "")
+      EXPECT_EQ(refusal(text, demand(proof.claim, options.solve.separation)), "")
           << shape.name << ' ' << seed;
       expect_true(scene, options, proof);
       checker::Summary summary(checker::Time::step);
@@ -190,7 +190,7 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
       inverted += text.find("\nelement ") != std::string::npos ? 1 : 0;
       free_elements += text.find("\ntetrahedron\n") != std::string::npos ? 1 : 0;
       free += proof.claim.starts_with("no") ? 1 : 0;
-      with_distance += options.separation.distance > 0.0 ? 1 : 0;
+      with_distance += options.solve.separation.distance > 0.0 ? 1 : 0;
     }
   }
   EXPECT_GT(proved, 200);
@@ -208,7 +208,7 @@ TEST(ProveStep, NeedsEachOfItsArguments) {
   for (int trial = 0; trial < 12; ++trial) {
     Scene scene = with_edges_anyhow(tests::soup(random, 12, 0.2));
     if (trial % 3 == 2) tests::add_thickness(scene, 0.05, random);
-    const SceneProof proof = prove(scene, {.t_max = trial % 2 == 0 ? 1.0 : 1e-3});
+    const SceneProof proof = prove(scene, {.solve = {.t_max = trial % 2 == 0 ? 1.0 : 1e-3}});
     const std::string& text = proof.stream;
     ASSERT_EQ(refusal(text), "");
     directions += proof.directions;
@@ -271,8 +271,8 @@ TEST(ProveStep, DividesTheTimeOfNearlyFlatElements) {
 TEST(ProveStep, IsTheSameOnAnyNumberOfThreads) {
   Random random(7);
   const Scene scene = with_edges_anyhow(tests::soup(random, 60, 0.3));
-  const SceneProof one = prove(scene, {.max_threads = 1}, {.max_threads = 1});
-  const SceneProof some = prove(scene, {.max_threads = 3}, {.max_threads = 3});
+  const SceneProof one = prove(scene, {.solve = {.max_threads = 1}}, {.max_threads = 1});
+  const SceneProof some = prove(scene, {.solve = {.max_threads = 3}}, {.max_threads = 3});
   EXPECT_EQ(one.stream, some.stream);
   EXPECT_GT(one.directions + one.certificates, 100U);
   std::string text;
@@ -287,7 +287,7 @@ TEST(ProveStep, EndsWhenStoppedAndPassesOnExceptionsOfItsReader) {
   Random random(8);
   const Scene scene = tests::soup(random, 30, 0.3);
   const std::atomic<bool> stop = true;
-  const SceneProof proof = prove(scene, {.t_max = 1e-3}, {.stop = &stop});
+  const SceneProof proof = prove(scene, {.solve = {.t_max = 1e-3}}, {.stop = &stop});
   EXPECT_TRUE(proof.interrupted);
   EXPECT_FALSE(proof.is_complete());
   EXPECT_EQ(proof.stream, "");

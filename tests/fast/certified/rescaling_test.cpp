@@ -75,7 +75,7 @@ Block block_of(Random& random, Kind kind, const std::array<int, 3>& exponents, d
   while (block.queries.size() < 60) {
     Query query = tests::near_contact_query(random, kind);
     const Separation usual{.distance = distance, .norm = Norm::l2};
-    if (solve(kind, query, {.separation = usual}).stage == Stage::exact) continue;
+    if (solve(kind, query, {.separation = usual}).is_exact) continue;
     for (std::size_t k = 0; k < query.coordinates.size(); ++k) {
       query.coordinates[k] = std::ldexp(query.coordinates[k], exponents[k % 3]);
     }

@@ -7,7 +7,6 @@
 #include <csignal>
 #include <iostream>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -226,28 +225,6 @@ TEST(Solver, ALostQueryIsThatOfItsShapeAndSeparation) {
     EXPECT_TRUE(other.failures.empty());
     EXPECT_EQ(answers[1].verdict, Verdict::no);
   }
-}
-
-// ---- Stages -------------------------------------------------------------------------------------
-
-TEST(Solver, StagesAreCountedInTheirOrder) {
-  const fast::MethodInfo& certified = fast::certified_info();
-  const std::vector<Query> queries{tests::over_triangle(1, 1, 1, -1).query,
-                                   tests::over_triangle(1, 1, 1, 0.5).query,
-                                   tests::over_triangle(1, 1, 1, -3).query};
-  std::vector<Answer> answers(queries.size());
-  std::vector<fast::CertifiedResult> results(queries.size());
-  const auto method = fast::certified_method();
-  static_cast<void>(solver_in_process(*method, {})->solve({.queries = {vf, queries}}, answers));
-  fast::solve(vf, queries, results, {.max_threads = 1});
-  std::vector<StageCount> expected;
-  for (const std::string_view stage : {"axis", "direction", "determinant", "bisection", "exact"}) {
-    const auto is_it = [&](const auto& result) { return fast::to_string(result.stage) == stage; };
-    expected.push_back({stage, static_cast<std::uint64_t>(std::ranges::count_if(results, is_it))});
-  }
-  EXPECT_EQ(count_stages(certified, answers), expected);
-  EXPECT_EQ(certified.promise, Promise::exact);
-  EXPECT_TRUE(count_stages({.name = "other"}, answers).empty());
 }
 
 }  // namespace

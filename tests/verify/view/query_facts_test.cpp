@@ -229,8 +229,9 @@ TEST(StepFacts, OfTheStepThatIsTaken) {
 
 TEST(StepFacts, AtASeparation) {
   const mesh::Mesh mesh = scene();
-  const ViewedStep near = find_collisions("a step", mesh, mesh.vertices, mesh.vertices,
-                                          {.separation = {.distance = 1.0, .norm = Norm::l2}});
+  const ViewedStep near =
+      find_collisions("a step", mesh, mesh.vertices, mesh.vertices,
+                      {.solve = {.separation = {.distance = 1.0, .norm = Norm::l2}}});
   ASSERT_EQ(near.collisions.size(), 1U) << "one point is 1 above the triangle, the other 2";
   EXPECT_EQ(near.points[0], (std::array<std::int32_t, 4>{4, 0, 1, 2}));
   EXPECT_EQ(first_queries(near, 1)[0].separation.distance, 1.0);
