@@ -33,15 +33,14 @@ void require_valid(const BroadPhaseOptions& options) {
 /// Decision in double whether swept boxes are within a distance.
 class ExactTest final : public PairQuestions {
  public:
-  ExactTest(const MovingVertices& vertices, double distance)
-      : vertices_(vertices), distance_(distance) {}
+  ExactTest(const Motion& vertices, double distance) : vertices_(vertices), distance_(distance) {}
 
   [[nodiscard]] bool confirms(const Primitive& a, const Primitive& b) const override {
     return are_within_distance(vertices_, a, b, distance_);
   }
 
  private:
-  const MovingVertices& vertices_;
+  const Motion& vertices_;
   double distance_;
 };
 
@@ -135,8 +134,7 @@ TooManyCandidates::TooManyCandidates(std::uint64_t count)
     : std::runtime_error(std::to_string(count) + " candidates are too many for the memory"),
       count_(count) {}
 
-std::vector<IndexPair> vertex_face_candidates(const MovingVertices& vertices,
-                                              std::span<const Face> faces,
+std::vector<IndexPair> vertex_face_candidates(const Motion& vertices, std::span<const Face> faces,
                                               const BroadPhaseOptions& options) {
   require_valid(options);
   require_finite(vertices);
@@ -156,8 +154,7 @@ std::vector<IndexPair> vertex_face_candidates(const MovingVertices& vertices,
   });
 }
 
-std::vector<IndexPair> edge_edge_candidates(const MovingVertices& vertices,
-                                            std::span<const Edge> edges,
+std::vector<IndexPair> edge_edge_candidates(const Motion& vertices, std::span<const Edge> edges,
                                             const BroadPhaseOptions& options) {
   require_valid(options);
   require_finite(vertices);

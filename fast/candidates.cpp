@@ -67,12 +67,11 @@ std::array<std::int32_t, moving_points> vertices_of(const Candidates& candidates
 
 }  // namespace
 
-Query query_of(const MovingVertices& vertices, const Candidates& candidates,
-               const IndexPair& pair) {
+Query query_of(const Motion& vertices, const Candidates& candidates, const IndexPair& pair) {
   return query_of(vertices, vertices_of(candidates, pair));
 }
 
-Query query_of(const MovingVertices& vertices, const Tetrahedron& points) {
+Query query_of(const Motion& vertices, const Tetrahedron& points) {
   Query query;
   for (std::size_t point = 0; point < moving_points; ++point) {
     const MovingVertex& vertex = vertices[static_cast<std::size_t>(points[point])];
@@ -84,29 +83,43 @@ Query query_of(const MovingVertices& vertices, const Tetrahedron& points) {
   return query;
 }
 
-void require_finite(const MovingVertices& vertices) {
+void require_finite(const Motion& vertices) {
   require_countable(vertices.size(), "vertices");
+  const bool has_weights = vertices.shape().is_rational;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (!is_finite(vertices[i].start) || !is_finite(vertices[i].end)) {
-      throw std::domain_error("vertex " + std::to_string(i) + ": a coordinate is not finite");
+    bool is_right = is_finite(vertices[i].start) && is_finite(vertices[i].end);
+    if (!vertices.is_straight()) {
+      const std::span<const double> points = vertices.control_points(i);
+      is_right = is_finite(points);
+      for (std::size_t k = 3; has_weights && k < points.size(); k += 4) {
+        is_right = is_right && points[k] > 0.0;
+      }
     }
+    if (is_right) continue;
+    throw std::domain_error("vertex " + std::to_string(i) + ": a coordinate is not finite" +
+                            (has_weights ? ", or a weight is not positive and finite" : ""));
   }
 }
 
-void require_in_range(const MovingVertices& vertices, std::span<const Edge> edges) {
+void require_straight(const Motion& vertices, std::string_view what) {
+  if (vertices.is_straight()) return;
+  throw std::invalid_argument(std::string(what) + ": straight lines are needed, not curves");
+}
+
+void require_in_range(const Motion& vertices, std::span<const Edge> edges) {
   require_elements_in_range(vertices.size(), edges, "edge");
 }
 
-void require_in_range(const MovingVertices& vertices, std::span<const Face> faces) {
+void require_in_range(const Motion& vertices, std::span<const Face> faces) {
   require_elements_in_range(vertices.size(), faces, "face");
 }
 
-void require_in_range(const MovingVertices& vertices,
+void require_in_range(const Motion& vertices,
                       std::span<const std::array<std::int32_t, 4>> tetrahedra) {
   require_elements_in_range(vertices.size(), tetrahedra, "tetrahedron");
 }
 
-void require_in_range(const MovingVertices& vertices, std::span<const std::int32_t> points) {
+void require_in_range(const Motion& vertices, std::span<const std::int32_t> points) {
   require_countable(points.size(), "points");
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (is_below(points[i], vertices.size())) continue;

@@ -32,9 +32,7 @@ void decide(const Queries& block, const CertifiedOptions& options, const Certifi
   if (is_element(block.kind)) {
     require_element(block, options);
   } else if (!block.is_straight()) {
-    report_contacts(
-        search_curves(block, options, kernel), options,
-        [&](std::size_t index) { return decided_exactly(block, index, options); }, report);
+    decide_curves(block, options.t_max, options, kernel, report);
     return;
   }
   const std::span<const Query> queries = block.straight();

@@ -60,6 +60,7 @@ ActiveContact contact_of(const Step& step, const StepCollision& collision) {
 
 std::vector<ActiveContact> contacts_of(const Step& step,
                                        std::span<const StepCollision> collisions) {
+  require_straight(step.vertices(), "contacts");
   constexpr std::size_t collisions_of_task = 256;
   std::vector<ActiveContact> result(collisions.size());
   with_threads(scene_of(step).certified().max_threads, [&] {
@@ -75,6 +76,7 @@ std::vector<ActiveContact> contacts_of(const Step& step,
 }
 
 std::vector<ActiveContact> active_set(const Step& step, const Separation& separation) {
+  require_straight(step.vertices(), "contacts");
   const Step at_distance = step.with_separation(separation);
   std::vector<ActiveContact> result = contacts_of(at_distance, at_distance.collisions());
   std::ranges::sort(result, [](const ActiveContact& a, const ActiveContact& b) {

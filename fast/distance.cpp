@@ -93,7 +93,7 @@ bool is_less(const Distance& a, const Distance& b) {
 class LeastDistanceSearch {
  public:
   LeastDistanceSearch(const Step& step, double t, Norm norm) : step_(step), t_(t), norm_(norm) {
-    const MovingVertices& vertices = step.vertices();
+    const Motion& vertices = step.vertices();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       for (const std::array<double, 4>& place : {vertices[i].start, vertices[i].end}) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -112,7 +112,7 @@ class LeastDistanceSearch {
   }
 
   [[nodiscard]] std::optional<LeastDistance> run() {
-    const MovingVertices resting = places();
+    const Motion resting = places();
     // An upper bound of all distances, 2 √3 of the greatest coordinate in L2.
     const double most = 4.0 * scale_ * greatest_;
     for (double radius = usual_length() / 64.0;;) {
@@ -139,9 +139,9 @@ class LeastDistanceSearch {
   static constexpr double far_from_overflow = 0x1p900;
 
   /// The approximate positions of the vertices, times the scale.
-  [[nodiscard]] MovingVertices places() const {
+  [[nodiscard]] Motion places() const {
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-    const MovingVertices& vertices = step_.vertices();
+    const Motion& vertices = step_.vertices();
     Rows rows(static_cast<Eigen::Index>(vertices.size()), 3);
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
       const MovingVertex& vertex = vertices[static_cast<std::size_t>(i)];
@@ -282,6 +282,7 @@ void distances(Kind kind, std::span<const Query> queries, double t, Norm norm,
 
 std::optional<LeastDistance> least_distance(const Step& step, double t, Norm norm) {
   require_time(t);
+  require_straight(step.vertices(), "least_distance");
   const StrictFloatingPoint strict;
   return LeastDistanceSearch(step, t, norm).run();
 }

@@ -239,11 +239,11 @@ class Search final : private PairQuestions {
  public:
   /// Uses the threads of the caller's task arena. \pre the vertices are finite and at rest, indices
   /// in range; strict floating point
-  Search(MovingVertices vertices, const Mesh& mesh, const IntersectionOptions& options)
+  Search(Motion vertices, const Mesh& mesh, const IntersectionOptions& options)
       : bodies_(vertices.size(), options.groups, options.can_collide),
         bounds_(vertices),
         // The vertices take more memory than their places, and are not needed from here on.
-        at_(MovingVertices(std::move(vertices))),
+        at_(Motion(std::move(vertices))),
         elements_(at_, mesh, options),
         groups_of_boxes_(bounds_, elements_.vertices()),
         tree_(groups_of_boxes_),
@@ -376,7 +376,8 @@ class Search final : private PairQuestions {
   const IntersectionOptions& options_;
 };
 
-void require_valid(const MovingVertices& vertices, const Mesh& mesh) {
+void require_valid(const Motion& vertices, const Mesh& mesh) {
+  require_straight(vertices, "intersections");
   require_finite(vertices);
   require_in_range(vertices, mesh.faces);
   require_in_range(vertices, mesh.edges);
@@ -385,7 +386,7 @@ void require_valid(const MovingVertices& vertices, const Mesh& mesh) {
 
 /// Calls answer(search) in the threads that the options allow.
 template <class Answer>
-auto searched(MovingVertices vertices, const Mesh& mesh, const IntersectionOptions& options,
+auto searched(Motion vertices, const Mesh& mesh, const IntersectionOptions& options,
               const Answer& answer) {
   if (options.max_threads < 0) {
     throw std::invalid_argument("intersections: max_threads must not be negative");
@@ -418,18 +419,17 @@ std::string_view to_string(IntersectionKind kind) {
   return name_in(names, kind);
 }
 
-std::vector<Intersection> intersections(MovingVertices vertices, const Mesh& mesh,
+std::vector<Intersection> intersections(Motion vertices, const Mesh& mesh,
                                         const IntersectionOptions& options) {
   return searched(std::move(vertices), mesh, options, [](Search& search) { return search.all(); });
 }
 
-bool has_intersections(MovingVertices vertices, const Mesh& mesh,
-                       const IntersectionOptions& options) {
+bool has_intersections(Motion vertices, const Mesh& mesh, const IntersectionOptions& options) {
   return searched(std::move(vertices), mesh, options,
                   [](Search& search) { return search.is_any(); });
 }
 
-MeshDefects mesh_defects(const MovingVertices& vertices, const Mesh& mesh) {
+MeshDefects mesh_defects(const Motion& vertices, const Mesh& mesh) {
   require_valid(vertices, mesh);
   const StrictFloatingPoint strict;
   MeshDefects result;

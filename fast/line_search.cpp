@@ -86,15 +86,15 @@ LineSearchLimit limit_of_scene(const Step& step, double p, Norm norm) {
 
 // ---- The pairs' own distances -------------------------------------------------------------------
 
-/// The motion of vertices.
-struct Motion {
+/// How far vertices move.
+struct Extent {
   double relative = 0.0;  ///< an upper bound, in L2, of that of one relative to another
   double mean = 0.0;      ///< the mean in L∞, nearly
 };
 
-/// The motion of all vertices. May be infinite or NaN.
-Motion motion_of(const MovingVertices& vertices) {
-  Motion result;
+/// That of all vertices. May be infinite or NaN.
+Extent extent_of(const Motion& vertices) {
+  Extent result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double least = positive_infinity, most = -positive_infinity;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -181,7 +181,7 @@ class SearchOfPairs {
   void search() {
     // Distances among the least doubles are always examined.
     constexpr double least = 0x1p-1000;
-    const Motion motion = motion_of(step_.vertices());
+    const Extent motion = extent_of(step_.vertices());
     const double until = time();
     const double within =
         until * p_ / ((1.0 - p_) - 5.0 * 0x1p-53 * p_) * (1.0 + 0x1p-40) * motion.relative;
@@ -334,6 +334,7 @@ LineSearchLimit line_search_limit(const Step& step, double p, const LineSearchOp
   if (!(options.kept_volume >= 0.0 && options.kept_volume < 1.0)) {
     throw std::invalid_argument("line search: kept_volume must be in [0,1)");
   }
+  require_straight(step.vertices(), "line search");
   const StrictFloatingPoint strict;
   LineSearchLimit result = options.start_distance == StartDistance::of_pair
                                ? SearchOfPairs(step, p, options.norm).run()

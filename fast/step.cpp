@@ -25,13 +25,9 @@ static_assert(PairBuffer::capacity <= kernel_block);
 
 // ---- Collisions ---------------------------------------------------------------------------------
 
-/// The whole step.
-SceneInterval<2> whole_step(const Scene& scene) {
-  return scene.up_to<2>(t_end_of(scene.certified().t_max));
-}
-
 /// Appends the collisions of a part, in the order of its pairs.
-void collect(const Scene& scene, const SceneInterval<2>& step, const SearchPart& part,
+template <std::size_t instants>
+void collect(const Scene& scene, const SceneInterval<instants>& step, const SearchPart& part,
              std::vector<StepCollision>& found) {
   std::vector<std::pair<std::size_t, StepCollision>> of_block;
   for_each_block(
@@ -47,8 +43,8 @@ void collect(const Scene& scene, const SceneInterval<2>& step, const SearchPart&
       });
 }
 
-std::vector<StepCollision> all_collisions(const Scene& scene) {
-  const SceneInterval<2> step = whole_step(scene);
+template <std::size_t instants>
+std::vector<StepCollision> all_collisions(const Scene& scene, const SceneInterval<instants>& step) {
   const std::vector<SearchPart> parts = scene.parts(groups_of_part);
   std::vector<std::vector<StepCollision>> of_parts(parts.size());
   tbb::parallel_for(std::size_t{0}, parts.size(),
@@ -61,6 +57,11 @@ std::vector<StepCollision> all_collisions(const Scene& scene) {
   return result;
 }
 
+std::vector<StepCollision> all_collisions(const Scene& scene) {
+  if (!scene.vertices().is_straight()) return all_collisions(scene, scene.up_to<1>(1.0));
+  return all_collisions(scene, scene.up_to<2>(t_end_of(scene.certified().t_max)));
+}
+
 // ---- The earliest -------------------------------------------------------------------------------
 
 /// Search for the earliest impact, or for any. Elements are examined first, which takes little;
@@ -69,7 +70,7 @@ std::vector<StepCollision> all_collisions(const Scene& scene) {
 /// early ones, and on a short interval little moves. So the first rounds search such an interval,
 /// and all rounds do if these find a contact in it. Otherwise the whole step is searched from the
 /// first round on, and between rounds the boxes are fitted again if the earliest known impact
-/// leaves much less to search.
+/// leaves much less to search. (On curves, all rounds search swept boxes of the whole step.)
 class ImpactSearch {
  public:
   explicit ImpactSearch(const Scene& scene) : scene_(scene) {}
@@ -100,7 +101,7 @@ class ImpactSearch {
         [this](const StepInversion& one) { add(one, inversions_); });
     if (is_enough()) return;
     // (Any contact is found as fast in the whole step.)
-    const bool is_short = !any_suffices_ && is_early();
+    const bool is_short = is_straight_ && !any_suffices_ && is_early();
     if (!is_short) take_interval(t_end_of(limit()));
     for (std::size_t round = is_short ? first_rounds : 0; round < strides.size() && !is_enough();
          ++round) {
@@ -133,7 +134,9 @@ class ImpactSearch {
   void take_interval(double end) {
     short_.reset();
     long_.reset();
-    if (end <= short_end) {
+    if (!is_straight_) {
+      short_.emplace(scene_.up_to<1>(1.0));
+    } else if (end <= short_end) {
       short_.emplace(scene_.up_to<1>(end));
     } else {
       long_.emplace(scene_.up_to<2>(end));
@@ -232,6 +235,7 @@ class ImpactSearch {
   }
 
   const Scene& scene_;
+  const bool is_straight_ = scene_.vertices().is_straight();
   bool any_suffices_ = false;
   /// The interval: one of these.
   std::optional<SceneInterval<1>> short_;
@@ -245,10 +249,18 @@ class ImpactSearch {
 
 // ---- The start ----------------------------------------------------------------------------------
 
-MovingVertices start_of(const Scene& scene) {
+Motion start_of(const Scene& scene) {
+  const Motion& vertices = scene.vertices();
+  if (!vertices.is_straight()) {
+    std::vector<double> twice;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const auto first = vertices.control_points(i).first(3);
+      for (int end = 0; end < 2; ++end) twice.insert(twice.end(), first.begin(), first.end());
+    }
+    return {1, false, std::move(twice)};
+  }
   using Places = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
   static constexpr Eigen::Index stride = sizeof(MovingVertex) / sizeof(double);
-  const MovingVertices& vertices = scene.vertices();
   const Eigen::Map<const Places, 0, Eigen::OuterStride<stride>> places(
       vertices.size() == 0 ? nullptr : vertices.data()->start.data(),
       static_cast<Eigen::Index>(vertices.size()), 3);
@@ -265,7 +277,7 @@ IntersectionOptions options_at_start(const Scene& scene) {
 // ---- The step that is taken ---------------------------------------------------------------------
 
 /// \throws std::domain_error if a motion overflows.
-void require_finite_motions(const MovingVertices& vertices) {
+void require_finite_motions(const Motion& vertices) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (std::isfinite(vertices[i].end[axis] - vertices[i].start[axis])) continue;
@@ -283,7 +295,7 @@ double scaled_place(double from, double to, double alpha) {
 }
 
 /// \pre strict floating point; the motions are finite.
-MovingVertices scaled_vertices(const MovingVertices& vertices, double alpha) {
+Motion scaled_vertices(const Motion& vertices, double alpha) {
   using Places = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
   const auto count = static_cast<Eigen::Index>(vertices.size());
   Places start(count, 3), end(count, 3);
@@ -527,7 +539,7 @@ void require_in_range(const Scene& scene, PairKind kind, const IndexPair& pair) 
 
 std::string_view to_string(PairKind kind) { return record_of(kind).name; }
 
-Step::Step(MovingVertices vertices, Mesh mesh, const StepOptions& options) {
+Step::Step(Motion vertices, Mesh mesh, const StepOptions& options) {
   require_valid(options.solve);
   scene_ = with_threads(options.solve.max_threads, [&] {
     return std::make_unique<const Scene>(std::move(vertices), std::move(mesh), options);
@@ -540,7 +552,7 @@ Step::~Step() = default;
 Step::Step(Step&& other) noexcept = default;
 Step& Step::operator=(Step&& other) noexcept = default;
 
-Step Step::with_places(MovingVertices vertices, const Separation& separation) const {
+Step Step::with_places(Motion vertices, const Separation& separation) const {
   return Step(with_threads(scene_->certified().max_threads, [&] {
     return std::make_unique<const Scene>(std::move(vertices), *scene_, separation);
   }));
@@ -598,6 +610,7 @@ Step Step::scaled(double alpha) const {
     throw std::invalid_argument("step: the step size must be in [0,1]");
   }
   return Step(with_threads(scene_->certified().max_threads, [&] {
+    require_straight(scene_->vertices(), "step: a step size");
     require_finite_motions(scene_->vertices());
     return std::make_unique<const Scene>(scaled_vertices(scene_->vertices(), alpha), *scene_);
   }));
@@ -605,6 +618,7 @@ Step Step::scaled(double alpha) const {
 
 std::optional<double> Step::free_step_size() const {
   const StrictFloatingPoint strict;
+  require_straight(vertices(), "step: a step size");
   require_finite_motions(vertices());
   const double greatest = scene_->certified().t_max;
   const std::optional<StepImpact> impact = earliest();
@@ -659,6 +673,7 @@ std::array<std::int32_t, moving_points> Step::vertices_of(PairKind kind,
 }
 
 Query Step::query_of(PairKind kind, const IndexPair& pair) const {
+  require_straight(vertices(), "step: a query");
   require_in_range(*scene_, kind, pair);
   return scene_->query_of(kind, pair);
 }
@@ -679,7 +694,7 @@ Separation Step::separation_of(PairKind kind, const IndexPair& pair) const {
   return scene_->separation_of(kind, pair, scene_->certified().separation);
 }
 
-const MovingVertices& Step::vertices() const { return scene_->vertices(); }
+const Motion& Step::vertices() const { return scene_->vertices(); }
 
 StepOptions Step::options() const {
   return {.solve = scene_->certified(),

@@ -246,14 +246,28 @@ std::function<bool(std::int32_t, std::int32_t)> rule_of(const TouchstoneMesh& me
              std::int32_t a, std::int32_t b) { return rule(context, a, b) != 0; };
 }
 
-fast::Step step_of(const TouchstoneMesh& mesh, const TouchstoneOptions& options) {
+fast::Motion motion_of(const TouchstoneMesh& mesh) {
+  if (mesh.degree != 0) {
+    const QueryShape shape{.degree = static_cast<std::size_t>(std::max(mesh.degree, 0)),
+                           .is_rational = mesh.is_rational != 0};
+    require_degree(shape.degree);
+    constexpr std::size_t most = 4 * (greatest_degree + 1);
+    numbers_of<std::array<double, most>>(mesh.control_points, mesh.vertices, "control_points");
+    const std::size_t size = (shape.degree + 1) * shape.numbers_of_point() * mesh.vertices;
+    return {shape.degree, shape.is_rational,
+            copied<double>(mesh.control_points, size, "control_points")};
+  }
   const auto coordinates = [&mesh](const double* numbers, const char* name) {
     return std::span(numbers_of<std::array<double, 3>>(numbers, mesh.vertices, name),
                      3 * mesh.vertices);
   };
-  fast::Mesh elements = elements_of(mesh);
+  return {coordinates(mesh.before, "before"), coordinates(mesh.after, "after")};
+}
+
+fast::Step step_of(const TouchstoneMesh& mesh, const TouchstoneOptions& options) {
+  fast::Motion motion = motion_of(mesh);
   return {
-      coordinates(mesh.before, "before"), coordinates(mesh.after, "after"), std::move(elements),
+      std::move(motion), elements_of(mesh),
       fast::StepOptions{
           .solve = certified_of(options), .groups = groups_of(mesh), .can_collide = rule_of(mesh)}};
 }

@@ -240,7 +240,7 @@ bool is_before(const fast::Edge& a, const fast::Edge& b) {
   return std::tie(a[1], a[0]) < std::tie(b[1], b[0]);
 }
 
-checker::Scene scene_of(const fast::MovingVertices& vertices, const ListedScene& listed) {
+checker::Scene scene_of(const fast::Motion& vertices, const ListedScene& listed) {
   checker::Scene scene;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const auto& [x, y, z, zero] = vertices[i].start;
@@ -255,7 +255,7 @@ checker::Scene scene_of(const fast::MovingVertices& vertices, const ListedScene&
 }
 
 /// Lists just the edges and points that are elements (touchstone/intersections.hpp).
-void list_elements(const fast::MovingVertices& vertices, bool is_welded, ListedScene& listed) {
+void list_elements(const fast::Motion& vertices, bool is_welded, ListedScene& listed) {
   std::vector<std::int32_t> first(vertices.size());
   std::iota(first.begin(), first.end(), 0);
   if (is_welded) {
@@ -292,7 +292,7 @@ void list_elements(const fast::MovingVertices& vertices, bool is_welded, ListedS
 
 class MeshProver : private ProofWriter {
  public:
-  MeshProver(const fast::MovingVertices& vertices, const ListedScene& listed, bool is_welded,
+  MeshProver(const fast::Motion& vertices, const ListedScene& listed, bool is_welded,
              const SceneProofOptions& options)
       : ProofWriter(options),
         listed_(listed),
@@ -485,7 +485,7 @@ class MeshProver : private ProofWriter {
 
 }  // namespace
 
-SceneProof prove_mesh(const fast::MovingVertices& vertices, const fast::Mesh& mesh,
+SceneProof prove_mesh(const fast::Motion& vertices, const fast::Mesh& mesh,
                       const fast::IntersectionOptions& search, const SceneProofOptions& options) {
   if (search.can_collide) {
     throw std::invalid_argument("prove: certificates know groups alone, not a rule can_collide");

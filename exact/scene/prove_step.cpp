@@ -150,7 +150,7 @@ class StepProver : private ProofWriter {
   // ---- The scene and the claim ----
 
   void write_scene() {
-    const fast::MovingVertices& vertices = step_.vertices();
+    const fast::Motion& vertices = step_.vertices();
     proof().rules = checker::rules_text(
         scene_.rules.apart,
         vertices.size() - fast::vertices_of(vertices.size(), scene_.mesh).size());
@@ -217,7 +217,7 @@ class StepProver : private ProofWriter {
   }
 
   [[nodiscard]] std::size_t longest_axis() const {
-    const fast::MovingVertices& vertices = step_.vertices();
+    const fast::Motion& vertices = step_.vertices();
     std::array<double, 3> lower{}, upper{};
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       for (std::size_t k = 0; k < 3; ++k) {
@@ -353,6 +353,7 @@ class StepProver : private ProofWriter {
 }  // namespace
 
 SceneProof prove_step(const fast::Step& step, const SceneProofOptions& options) {
+  fast::require_straight(step.vertices(), "prove");
   const fast::Scene& scene = fast::scene_of(step);
   if (scene.can_collide()) {
     throw std::invalid_argument("prove: certificates know groups alone, not a rule can_collide");

@@ -55,7 +55,7 @@ std::optional<Eigen::Vector3d> nearest(std::span<const Eigen::Vector3d> points) 
 
 }  // namespace
 
-StepPlaces::StepPlaces(const fast::MovingVertices& vertices, double greatest, const Rational& end) {
+StepPlaces::StepPlaces(const fast::Motion& vertices, double greatest, const Rational& end) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       greatest = std::max({greatest, std::abs(vertices[i].start[k]), std::abs(vertices[i].end[k])});

@@ -32,7 +32,7 @@ class StepPlaces {
 
   /// The motion from t=0 to t=end. Refers to the vertices.
   /// \param greatest the greatest distance of a pair
-  StepPlaces(const fast::MovingVertices& vertices, double greatest, const Rational& end);
+  StepPlaces(const fast::Motion& vertices, double greatest, const Rational& end);
 
   /// An upper bound, in the step's coordinates, of the reduction of distances by the integers.
   [[nodiscard]] double uncertainty() const { return uncertainty_; }

@@ -108,7 +108,7 @@ class Rounding {
 };
 
 /// j for vertices: the middle of the window is about the median of a sample of their exponents.
-int window_of(const MovingVertices& vertices) {
+int window_of(const Motion& vertices) {
   constexpr std::size_t sample = 256;
   constexpr int usual = 15, last = 30;
   std::vector<int> exponents;
@@ -151,7 +151,7 @@ Range coordinate_at(double time, double from, double to) {
 /// Computation of the bounds of vertices.
 class BoundsMaker {
  public:
-  BoundsMaker(const MovingVertices& vertices, double end, double distance)
+  BoundsMaker(const Motion& vertices, double end, double distance)
       : round_(window_of(vertices)), end_(end), below_(distance / 2.0), above_(distance - below_) {}
 
   /// The maker for a vertex with that reach.
@@ -202,7 +202,7 @@ class BoundsMaker {
 
 }  // namespace
 
-FloatBounds::FloatBounds(const MovingVertices& vertices, double end, double distance,
+FloatBounds::FloatBounds(const Motion& vertices, double end, double distance,
                          std::span<const double> reaches)
     : size_(vertices.size()), bounds_(size_) {
   const StrictFloatingPoint strict;

@@ -88,7 +88,7 @@ class FloatBounds {
   /// \param distance d, finite and not negative.
   /// \param reaches Those of the vertices, not negative; or empty: all are 0.
   /// \pre The coordinates are finite.
-  explicit FloatBounds(const MovingVertices& vertices, double end = 1.0, double distance = 0.0,
+  explicit FloatBounds(const Motion& vertices, double end = 1.0, double distance = 0.0,
                        std::span<const double> reaches = {});
 
   [[nodiscard]] std::size_t size() const { return size_; }

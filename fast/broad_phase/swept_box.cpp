@@ -26,7 +26,7 @@ bool SweptBox::overlaps(const SweptBox& other) const {
   return true;
 }
 
-SweptBox swept_box(const MovingVertices& vertices, const Primitive& primitive) {
+SweptBox swept_box(const Motion& vertices, const Primitive& primitive) {
   SweptBox box;
   for (const std::int32_t index : primitive) {
     const MovingVertex& vertex = vertices[static_cast<std::size_t>(index)];
@@ -47,7 +47,7 @@ SweptBox widened(const SweptBox& box, double distance) {
   return result;
 }
 
-bool are_within_distance(const MovingVertices& vertices, const Primitive& a, const Primitive& b,
+bool are_within_distance(const Motion& vertices, const Primitive& a, const Primitive& b,
                          double distance) {
   return widened(swept_box(vertices, a), distance).overlaps(swept_box(vertices, b));
 }

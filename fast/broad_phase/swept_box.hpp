@@ -27,7 +27,7 @@ struct SweptBox {
 };
 
 /// The box of all positions of a primitive's vertices at t=0 and at t=1.
-[[nodiscard]] SweptBox swept_box(const MovingVertices& vertices, const Primitive& primitive);
+[[nodiscard]] SweptBox swept_box(const Motion& vertices, const Primitive& primitive);
 
 /// The box with its bounds moved outwards by a distance ≥ 0, each rounded *inwards*, to the nearest
 /// double that is not beyond the exact sum. It overlaps a box of doubles iff the exact one does: a
@@ -36,7 +36,7 @@ struct SweptBox {
 [[nodiscard]] SweptBox widened(const SweptBox& box, double distance);
 
 /// True if the swept boxes of two primitives are within the distance.
-[[nodiscard]] bool are_within_distance(const MovingVertices& vertices, const Primitive& a,
+[[nodiscard]] bool are_within_distance(const Motion& vertices, const Primitive& a,
                                        const Primitive& b, double distance);
 
 }  // namespace touchstone::fast

@@ -92,13 +92,13 @@ void sort(const Queries& queries, double distance, const Indices& open,
 
 }  // namespace
 
-const KernelOutput& search_curves(const Queries& queries, const CertifiedOptions& options,
-                                  const CertifiedKernel& kernel) {
+const KernelOutput& search_curves(const Queries& queries, double t_limit,
+                                  const CertifiedOptions& options, const CertifiedKernel& kernel) {
   thread_local Indices open;
   thread_local ByDenominators sorted;
   thread_local KernelOutput output;
   const curved::Block block{queries, options.separation,
-                            std::max(options.toi_tolerance, least_kernel_tolerance), options.t_max};
+                            std::max(options.toi_tolerance, least_kernel_tolerance), t_limit};
   kernel.curves->axis(block, open);
   output.separated_in_direction.count = output.one_sided.count = output.rejected.count = 0;
   output.impacts.count = output.undecided.count = 0;

@@ -23,16 +23,26 @@
 /// | weights of all finite doubles                | 4.2 | 24  | 70    | 1,300        |
 /// | weights of all finite doubles, distance 1e-3 | 72  | 480 | 2,300 | not measured |
 
+#include "fast/certified/block.hpp"
 #include "fast/certified/kernel.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::fast {
 
-/// Runs the kernel on at most kernel_block queries. The output is this thread's, until the next
-/// call. \pre strict floating point
-[[nodiscard]] const KernelOutput& search_curves(const Queries& queries,
+/// Runs the kernel on at most kernel_block queries, for contacts up to t_limit. The output is this
+/// thread's, until the next call. \pre strict floating point
+[[nodiscard]] const KernelOutput& search_curves(const Queries& queries, double t_limit,
                                                 const CertifiedOptions& options,
                                                 const CertifiedKernel& kernel);
+
+/// Decides at most kernel_block queries, as decide_block does. \pre as above
+template <class Report>
+void decide_curves(const Queries& queries, double t_limit, const CertifiedOptions& options,
+                   const CertifiedKernel& kernel, const Report& report) {
+  report_contacts(
+      search_curves(queries, t_limit, options, kernel), options,
+      [&](std::size_t index) { return decided_exactly(queries, index, options); }, report);
+}
 
 }  // namespace touchstone::fast

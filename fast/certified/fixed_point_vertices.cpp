@@ -28,7 +28,7 @@ Position position_of(const std::array<double, 4>& x) {
 DoublePair greatest(const DoublePair& a, const DoublePair& b) { return a > b ? a : b; }
 
 /// The greatest difference of a coordinate from that of the origin; infinity if one overflows.
-double extent(const MovingVertices& vertices, const Position& origin) {
+double extent(const Motion& vertices, const Position& origin) {
   return tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, vertices.size(), vertices_of_task), 0.0,
       [&](const tbb::blocked_range<std::size_t>& range, double known) {
@@ -94,8 +94,7 @@ float FixedPointVertices::distance_for(double other) const {
   return static_cast<float>(in_units * (1.0 + 0x1p-20));
 }
 
-FixedPointVertices fixed_point_vertices(const MovingVertices& vertices, double end,
-                                        double distance) {
+FixedPointVertices fixed_point_vertices(const Motion& vertices, double end, double distance) {
   // Limits within which nothing overflows or underflows, here and in the certified solver's stages.
   constexpr double greatest_coordinate = 0x1p98, least_extent = 0x1p-900;
   const StrictFloatingPoint strict;

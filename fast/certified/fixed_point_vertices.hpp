@@ -44,7 +44,7 @@ struct FixedPointVertices {
 /// arena.
 /// \param distance D, finite and not negative.
 /// \pre The coordinates are finite.
-[[nodiscard]] FixedPointVertices fixed_point_vertices(const MovingVertices& vertices, double end,
+[[nodiscard]] FixedPointVertices fixed_point_vertices(const Motion& vertices, double end,
                                                       double distance);
 
 }  // namespace touchstone::fast

@@ -142,8 +142,7 @@ int sign_in_integers(const Positions& at, const std::array<std::int32_t, points>
 
 // ---- Interface ----------------------------------------------------------------------------------
 
-Positions::Positions(const MovingVertices& vertices)
-    : size_(vertices.size()), places_(vertices.size()) {
+Positions::Positions(const Motion& vertices) : size_(vertices.size()), places_(vertices.size()) {
   for (std::size_t i = 0; i < size_; ++i) places_[i] = vertices[i].start;
   const std::span all(places_.data(), size_);
   static constexpr double least_size = 0x1p-100;

@@ -38,7 +38,7 @@ class Positions {
   static constexpr double greatest_difference = 0x1p102;
 
   /// \pre the vertices are finite, and at rest; strict floating point.
-  explicit Positions(const MovingVertices& vertices);
+  explicit Positions(const Motion& vertices);
 
   [[nodiscard]] std::size_t size() const { return size_; }
   /// The places in the scale of the signs: 2^exponent times these are the given ones.

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "touchstone/mesh.hpp"
-#include "touchstone/step.hpp"
 
 namespace touchstone::fast {
 

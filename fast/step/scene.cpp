@@ -31,8 +31,14 @@ std::shared_ptr<const SceneMesh> checked(std::shared_ptr<const SceneMesh> mesh,
   return mesh;
 }
 
+void require_volumes_on_lines(const Motion& vertices, const Mesh& mesh) {
+  if (mesh.tetrahedra.empty() && mesh.plane_triangles.empty()) return;
+  require_straight(vertices, "step: elements that invert");
+}
+
 /// \throws as Step.
-MovingVertices checked(MovingVertices vertices, const Mesh& mesh) {
+Motion checked(Motion vertices, const Mesh& mesh) {
+  require_volumes_on_lines(vertices, mesh);
   require_finite(vertices);
   require_in_range(vertices, mesh.edges);
   require_in_range(vertices, mesh.faces);
@@ -42,10 +48,11 @@ MovingVertices checked(MovingVertices vertices, const Mesh& mesh) {
   return vertices;
 }
 
-MovingVertices checked(MovingVertices vertices, const Scene& other) {
+Motion checked(Motion vertices, const Scene& other) {
   if (vertices.size() != other.vertices().size()) {
     throw std::invalid_argument("step: there must be as many vertices as before");
   }
+  require_volumes_on_lines(vertices, other.mesh());
   require_finite(vertices);
   return vertices;
 }
@@ -199,7 +206,7 @@ SceneGroups::SceneGroups(const SceneMesh& mesh, const FloatBounds& bounds)
 
 // ---- The scene ----------------------------------------------------------------------------------
 
-Scene::Scene(MovingVertices vertices, Mesh mesh, const StepOptions& options)
+Scene::Scene(Motion vertices, Mesh mesh, const StepOptions& options)
     : vertices_(checked(std::move(vertices), mesh)),
       certified_(options.solve),
       stop_(options.stop),
@@ -210,12 +217,12 @@ Scene::Scene(MovingVertices vertices, Mesh mesh, const StepOptions& options)
       bounds_(bounds_up_to(1.0)),
       groups_(std::make_shared<const SceneGroups>(*mesh_, bounds_)) {}
 
-Scene::Scene(MovingVertices vertices, const Scene& other)
+Scene::Scene(Motion vertices, const Scene& other)
     : Scene(std::move(vertices), other, other.certified_.separation) {
   certified_.t_max = 1.0;
 }
 
-Scene::Scene(MovingVertices vertices, const Scene& other, const Separation& separation)
+Scene::Scene(Motion vertices, const Scene& other, const Separation& separation)
     : vertices_(checked(std::move(vertices), other)),
       certified_(with_separation(other.certified_, separation)),
       stop_(other.stop_),
@@ -237,8 +244,7 @@ double t_end_of(double time) {
 
 FloatBounds Scene::bounds_up_to(double end) const {
   // Elements alone do not collide.
-  if (mesh_->vertices.empty())
-    return FloatBounds(MovingVertices(Eigen::MatrixX3d(), Eigen::MatrixX3d()));
+  if (mesh_->vertices.empty()) return FloatBounds(Motion(Eigen::MatrixX3d(), Eigen::MatrixX3d()));
   return FloatBounds(vertices_, end, certified_.separation.distance, mesh_->reaches);
 }
 
@@ -249,7 +255,9 @@ SceneInterval<instants> Scene::up_to(double end) const {
   return {.end = end,
           .trees = end == 1.0 ? trees_of<instants>(groups_->groups, bounds_)
                               : trees_of<instants>(groups_->groups, bounds_up_to(end)),
-          .rounded = fixed_point_vertices(vertices_, end, certified_.separation.distance)};
+          .rounded = vertices_.is_straight()
+                         ? fixed_point_vertices(vertices_, end, certified_.separation.distance)
+                         : FixedPointVertices{}};
 }
 
 template SceneInterval<1> Scene::up_to<1>(double end) const;
@@ -391,6 +399,24 @@ Candidates Scene::candidates_of(PairKind kind, std::span<const IndexPair> pairs,
     scratch[i] = {at(numbers, pairs[i][0]), pairs[i][1]};
   result.pairs = std::span(scratch).first(pairs.size());
   return result;
+}
+
+std::vector<double> Scene::numbers_of(PairKind kind, std::span<const IndexPair> pairs) const {
+  const QueryShape& shape = vertices_.shape();
+  const std::size_t size = shape.numbers_of_point();
+  std::vector<double> numbers;
+  numbers.reserve(pairs.size() * shape.numbers_of_query());
+  for (const IndexPair& pair : pairs) {
+    const auto of_pair = vertices_of(kind, reported(kind, pair));
+    for (std::size_t k = 0; k <= shape.degree; ++k) {
+      for (const std::int32_t vertex : of_pair) {
+        const auto point =
+            vertices_.control_points(static_cast<std::size_t>(vertex)).subspan(k * size, size);
+        numbers.insert(numbers.end(), point.begin(), point.end());
+      }
+    }
+  }
+  return numbers;
 }
 
 KernelInput Scene::block_of(const Candidates& candidates, const FixedPointVertices& rounded,

@@ -12,6 +12,9 @@
 /// **Thickness.** Boxes are widened by reaches: each vertex has the greatest reach of all
 /// primitives that it is a vertex of (Bodies). The pairs of a block are decided by separations,
 /// those of one separation at once.
+///
+/// **Curves.** The step from the least to the greatest coordinates of control points has the swept
+/// boxes of the step on curves, so the search with boxes for the whole time is the same.
 
 #include <array>
 #include <atomic>
@@ -32,6 +35,7 @@
 #include "fast/broad_phase/search.hpp"
 #include "fast/candidates.hpp"
 #include "fast/certified/block.hpp"
+#include "fast/certified/curves.hpp"
 #include "fast/certified/fixed_point_vertices.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/platform/floating_point_state.hpp"
@@ -160,18 +164,18 @@ void sort_by_number(std::vector<StepInversion>& inversions);
 class Scene final : private PairQuestions {
  public:
   /// Uses the threads of the caller's task arena. \throws as Step.
-  Scene(MovingVertices vertices, Mesh mesh, const StepOptions& options);
+  Scene(Motion vertices, Mesh mesh, const StepOptions& options);
   /// The same mesh at other places, with the same options except t_max, which is 1.
-  Scene(MovingVertices vertices, const Scene& other);
+  Scene(Motion vertices, const Scene& other);
   /// The same mesh at other places, with the same options except the separation.
-  Scene(MovingVertices vertices, const Scene& other, const Separation& separation);
+  Scene(Motion vertices, const Scene& other, const Separation& separation);
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
   Scene(Scene&&) = delete;
   Scene& operator=(Scene&&) = delete;
   ~Scene() = default;
 
-  [[nodiscard]] const MovingVertices& vertices() const { return vertices_; }
+  [[nodiscard]] const Motion& vertices() const { return vertices_; }
   [[nodiscard]] const Mesh& mesh() const { return mesh_->elements; }
   /// The options of the decisions on pairs without thickness.
   [[nodiscard]] const CertifiedOptions& certified() const { return certified_; }
@@ -186,7 +190,7 @@ class Scene final : private PairQuestions {
 
   /// The trees with boxes around all places of the step.
   [[nodiscard]] Trees<1> swept_trees() const;
-  /// \param end As in FloatBounds.
+  /// \param end As in FloatBounds; on curves 1.
   template <std::size_t instants>
   [[nodiscard]] SceneInterval<instants> up_to(double end) const;
 
@@ -231,26 +235,35 @@ class Scene final : private PairQuestions {
   }
 
   /// Calls report(place, collision) for each pair that collides, in any order. Contacts after
-  /// t_limit, or after the interval of the rounded vertices, may be ignored.
+  /// t_limit, or after the interval of the rounded vertices, may be ignored. On curves, nothing is
+  /// rounded.
   template <class Report>
   void decide(PairKind kind, std::span<const IndexPair> pairs, const FixedPointVertices& rounded,
               double t_limit, const Report& report) const {
     for_each_separation(
         kind, pairs, rounded, certified_.separation, t_limit,
         [&](std::span<const IndexPair> some, const Separation& separation, const Places& place) {
-          PairScratch scratch;
-          const Candidates candidates = candidates_of(kind, some, scratch);
           CertifiedOptions options = certified_;
           options.separation = separation;
+          const auto take = [&](std::size_t i, const CertifiedResult& result) {
+            if (result.verdict != Verdict::yes) return;
+            report(place(i), collision_of(kind, reported(kind, some[i]), result));
+          };
+          if (!vertices_.is_straight()) {
+            const std::vector<double> numbers = numbers_of(kind, some);
+            QueryShape shape = vertices_.shape();
+            shape.kind = record_of(kind).query_kind;
+            decide_curves(Queries(shape, numbers), t_limit, options, kernel_, take);
+            return;
+          }
+          PairScratch scratch;
+          const Candidates candidates = candidates_of(kind, some, scratch);
           decide_block(
               block_of(candidates, rounded, separation), t_limit, options, kernel_,
               [&](std::size_t i) {
                 return fast::query_of(vertices_, candidates, candidates.pairs[i]);
               },
-              [&](std::size_t i, const CertifiedResult& result) {
-                if (result.verdict != Verdict::yes) return;
-                report(place(i), collision_of(kind, reported(kind, some[i]), result));
-              });
+              take);
         });
   }
 
@@ -329,8 +342,12 @@ class Scene final : private PairQuestions {
       return;
     }
     std::vector<DistanceAndPlace> order;
-    sieve_alike(kind, pairs, rounded, {greatest, of_step.norm}, t_limit,
-                [&](std::size_t place) { order.emplace_back(distances[place], place); });
+    const auto add = [&](std::size_t place) { order.emplace_back(distances[place], place); };
+    if (vertices_.is_straight()) {
+      sieve_alike(kind, pairs, rounded, {greatest, of_step.norm}, t_limit, add);
+    } else {
+      for (std::size_t place = 0; place < pairs.size(); ++place) add(place);
+    }
     std::ranges::sort(order);
     std::vector<IndexPair> some;
     for (std::size_t first = 0; first < order.size(); first += some.size()) {
@@ -347,6 +364,9 @@ class Scene final : private PairQuestions {
   /// The pairs for the certified solver. \param scratch Memory for the numbers, if they differ.
   [[nodiscard]] Candidates candidates_of(PairKind kind, std::span<const IndexPair> pairs,
                                          PairScratch& scratch) const;
+  /// The pairs as queries on curves: their numbers.
+  [[nodiscard]] std::vector<double> numbers_of(PairKind kind,
+                                               std::span<const IndexPair> pairs) const;
   [[nodiscard]] KernelInput block_of(const Candidates& candidates,
                                      const FixedPointVertices& rounded,
                                      const Separation& separation) const;
@@ -356,7 +376,7 @@ class Scene final : private PairQuestions {
                                            std::span<double> distances) const;
   [[nodiscard]] FloatBounds bounds_up_to(double end) const;
 
-  MovingVertices vertices_;
+  Motion vertices_;
   CertifiedOptions certified_;
   const std::atomic<bool>* stop_;
   const CertifiedKernel& kernel_;

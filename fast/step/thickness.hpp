@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "touchstone/step.hpp"
+#include "touchstone/mesh.hpp"
 
 namespace touchstone::fast {
 

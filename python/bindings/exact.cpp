@@ -86,17 +86,15 @@ py::dict decision_layout() {
       .dict();
 }
 
-/// The exact times of the queries that are done.
-py::list decide(const std::string& kind_name, const Doubles& array, py::array results,
-                double distance, const std::string& norm, int threads, const py::object& progress) {
-  const Queries queries = queries_of(kind_from(kind_name), array);
-  const auto items = items_of<DecisionItem>(results, queries.size());
-  const Separation separation = separation_from(distance, norm);
-  std::vector<std::optional<exact::AlgebraicNumber>> times(queries.size());
+/// The exact times of the queries that are done, where decide_one(i) decides query i.
+template <class DecideOne>
+py::list decided(std::size_t size, py::array results, int threads, const py::object& progress,
+                 const DecideOne& decide_one) {
+  const auto items = items_of<DecisionItem>(results, size);
+  std::vector<std::optional<exact::AlgebraicNumber>> times(size);
   const auto decide_some = [&](std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i) {
-      require_valid(queries, i);
-      times[i] = exact::decide(queries, i, separation).toi;
+      times[i] = decide_one(i).toi;
       items[i] = {.collides = times[i].has_value(),
                   .toi_lower = fast::no_number,
                   .toi_upper = fast::no_number};
@@ -106,27 +104,39 @@ py::list decide(const std::string& kind_name, const Doubles& array, py::array re
       items[i].toi_upper = upper;
     }
   };
-  const std::size_t done = in_blocks(queries.size(), oracle_block, threads, progress, decide_some);
+  const std::size_t done = in_blocks(size, oracle_block, threads, progress, decide_some);
   py::list exact_times;
   for (std::size_t i = 0; i < done; ++i) exact_times.append(time_to_python(times[i]));
   return exact_times;
 }
 
+py::list decide(const std::string& kind, const Doubles& array, py::array results, double distance,
+                const std::string& norm, int threads, const py::object& progress) {
+  const Queries queries = queries_of(kind_from(kind), array);
+  const Separation separation = separation_from(distance, norm);
+  return decided(queries.size(), std::move(results), threads, progress, [&](std::size_t i) {
+    require_valid(queries, i);
+    return exact::decide(queries, i, separation);
+  });
+}
+
 /// Control points and weights; none for a polynomial curve.
 using CurveArguments = std::pair<std::vector<std::array<double, 3>>, std::vector<double>>;
 
-/// The exact time, and the doubles around it.
-py::tuple decide_curved(const std::string& kind_name,
-                        const std::array<CurveArguments, moving_points>& curves, double distance,
-                        const std::string& norm) {
-  CurvedQuery query;
-  for (std::size_t i = 0; i < moving_points; ++i) {
-    query[i] = {.control = curves[i].first, .weights = curves[i].second};
-  }
-  const auto time = exact::decide(kind_from(kind_name), query, separation_from(distance, norm)).toi;
-  exact::DoubleInterval enclosure{fast::no_number, fast::no_number};
-  if (time) enclosure = time->enclosure();
-  return py::make_tuple(time_to_python(time), enclosure.lower, enclosure.upper);
+/// The same of queries whose points move on curves of degrees of their own.
+py::list decide_curves(const std::string& kind_name,
+                       const std::vector<std::array<CurveArguments, moving_points>>& curves,
+                       py::array results, double distance, const std::string& norm, int threads,
+                       const py::object& progress) {
+  const Kind kind = kind_from(kind_name);
+  const Separation separation = separation_from(distance, norm);
+  return decided(curves.size(), std::move(results), threads, progress, [&](std::size_t i) {
+    CurvedQuery query;
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      query[point] = {.control = curves[i][point].first, .weights = curves[i][point].second};
+    }
+    return exact::decide(kind, query, separation);
+  });
 }
 
 // ---- Certificates -------------------------------------------------------------------------------
@@ -186,7 +196,7 @@ py::tuple prove_step(const Doubles& before, const Doubles& after, const Integers
                      const std::string& norm, double t_max, int threads, const std::string& label,
                      const py::object& progress) {
   std::atomic<bool> stop = false;
-  fast::MovingVertices vertices = vertices_of(before, after);
+  fast::Motion vertices = motion_of(before, after);
   fast::Mesh mesh = mesh_from(faces, edges, points, tetrahedra, plane_triangles);
   const fast::StepOptions of_step{
       .solve = {.t_max = t_max,
@@ -203,7 +213,7 @@ py::tuple prove_mesh(const Doubles& vertices, const Integers& faces, const Integ
                      const Integers& points, const Integers& groups, const Integers& apart,
                      bool weld, int threads, const std::string& label, const py::object& progress) {
   std::atomic<bool> stop = false;
-  const fast::MovingVertices at_rest = vertices_of(vertices, vertices);
+  const fast::Motion at_rest = motion_of(vertices, vertices);
   const fast::Mesh mesh = mesh_from(faces, edges, points);
   const fast::IntersectionOptions search{
       .groups = groups_from(groups, apart), .weld = weld, .max_threads = threads, .stop = &stop};
@@ -330,7 +340,8 @@ PYBIND11_MODULE(_exact, m) {
   m.def("decision_layout", decision_layout);
   m.def("decide", decide, arg("kind"), arg("queries").noconvert(), arg("results").noconvert(),
         arg("separation"), arg("norm"), arg("threads"), arg("progress"));
-  m.def("decide_curved", decide_curved, arg("kind"), arg("curves"), arg("separation"), arg("norm"));
+  m.def("decide_curves", decide_curves, arg("kind"), arg("curves"), arg("results").noconvert(),
+        arg("separation"), arg("norm"), arg("threads"), arg("progress"));
   m.def("prove", prove, arg("kind"), arg("queries").noconvert(), arg("separation"), arg("norm"),
         arg("claim"), arg("threads"), arg("progress"));
   m.def("prove_step", prove_step, arg("before").noconvert(), arg("after").noconvert(),

@@ -31,8 +31,14 @@ template <class Row>
   return rows;
 }
 
-/// \throws std::invalid_argument unless both are of the same shape (n, 3).
-[[nodiscard]] inline fast::MovingVertices vertices_of(const Doubles& before, const Doubles& after) {
+/// The motion between places of shape (n, 3); or on curves, of control points of shape (n, degree +
+/// 1, 3) or, with weights, (n, degree + 1, 4), which are `before`. \throws std::invalid_argument
+/// for other shapes.
+[[nodiscard]] inline fast::Motion motion_of(const Doubles& before, const Doubles& after) {
+  if (before.ndim() == 3) {
+    return {std::size_t(before.shape(1)) - 1, before.shape(2) == 4,
+            std::vector<double>(before.data(), before.data() + before.size())};
+  }
   if (before.ndim() != 2 || after.ndim() != 2) {
     throw std::invalid_argument("vertices must have the shape (n, 3)");
   }

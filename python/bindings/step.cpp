@@ -189,7 +189,7 @@ class StoppableStep {
                 double toi_tolerance, double t_max, int threads)
       : stop_(std::make_shared<std::atomic<bool>>(false)) {
     fast::Mesh mesh = mesh_from(faces, edges, points, tetrahedra, plane_triangles);
-    fast::MovingVertices vertices = vertices_of(before, after);
+    fast::Motion vertices = motion_of(before, after);
     const fast::StepOptions options{
         .solve = {.toi_tolerance = toi_tolerance,
                   .t_max = t_max,
@@ -205,7 +205,7 @@ class StoppableStep {
   [[nodiscard]] StoppableStep moved(const Doubles& before, const Doubles& after, double separation,
                                     const std::string& norm) const {
     StoppableStep result = *this;
-    fast::MovingVertices vertices = vertices_of(before, after);
+    fast::Motion vertices = motion_of(before, after);
     const Separation of_result = separation_from(separation, norm);
     const py::gil_scoped_release unlocked;
     result.step_ =
@@ -337,7 +337,7 @@ py::array intersections(const Doubles& vertices, const Integers& faces, const In
                         bool weld, int threads, const py::object& progress) {
   const fast::Mesh mesh = mesh_from(faces, edges, points);
   std::atomic<bool> stop = false;
-  const fast::MovingVertices at_rest = vertices_of(vertices, vertices);
+  const fast::Motion at_rest = motion_of(vertices, vertices);
   const fast::IntersectionOptions options{.groups = groups_from(groups, apart),
                                           .weld = weld,
                                           .max_threads = is_forked() ? 1 : threads,

@@ -119,6 +119,7 @@ __all__ = [
 _FORMER_NAMES = {
     "certified": "solve(kind, queries)",
     "certify": "judge(solver, data)",
+    "CurvedStep": "Step(control_points, ...)",
     "decide_curved": "decide(kind, [Curve(...), ...])",
 }
 

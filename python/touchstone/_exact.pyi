@@ -18,12 +18,15 @@ def decide(
     threads: int,
     progress: _Progress | None,
 ) -> list[Any]: ...
-def decide_curved(
+def decide_curves(
     kind: str,
-    curves: list[tuple[list[list[float]], list[float]]],
+    curves: list[list[tuple[list[list[float]], list[float]]]],
+    results: _Items,
     separation: float,
     norm: str,
-) -> tuple[Any, float, float]: ...
+    threads: int,
+    progress: _Progress | None,
+) -> list[Any]: ...
 def prove(
     kind: str,
     queries: _Doubles,

@@ -199,6 +199,16 @@ def as_vertices(values: npt.ArrayLike, name: str) -> Doubles:
     return array
 
 
+def as_motion(before: npt.ArrayLike, after: npt.ArrayLike | None) -> Tuple[Doubles, Doubles]:
+    """Return places at both ends, of shape (n, 3); or, without `after`, control points, twice."""
+    if after is not None:
+        return as_vertices(before, "before"), as_vertices(after, "after")
+    points = as_doubles(before, "before")
+    if points.ndim != 3 or points.shape[2] not in (3, 4) or points.shape[1] < 2:
+        raise ValueError(f"control points must have the shape (n, degree + 1, 3 or 4), not {points.shape}")
+    return points, points
+
+
 def as_indices(values: npt.ArrayLike | None, name: str, columns: int | None) -> npt.NDArray[np.int32]:
     """Return indices of shape (n, columns), or (n,) without columns, as int32; None: no indices."""
     array = as_array([] if values is None else values, name)

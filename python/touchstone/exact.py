@@ -167,7 +167,7 @@ def decide(
         As for `solve`.
     queries : array_like, list of four Curve, or list of such lists
         An array as for `solve`. Or the curves of the points of a query, or of each of many, in the order v,
-        f0, f1, f2 or ea0, ea1, eb0, eb1, each of its own degree; these are decided by one thread.
+        f0, f1, f2 or ea0, ea1, eb0, eb1, each of its own degree.
 
     Returns
     -------
@@ -206,10 +206,8 @@ def decide(
     numbers = np.dtype(module.decision_layout())
     items = np.empty(len(array), dtype=numbers)
     with Progress("decide", progress, queries=len(array)) as bar:
-        if of_curves:
-            times = _decide_curves(kind, array, items, separation, norm, bar.callback)
-        else:
-            times = module.decide(kind, array, items, separation, norm, threads, bar.callback)
+        decide_all: Any = module.decide_curves if of_curves else module.decide
+        times = decide_all(kind, array, items, separation, norm, threads, bar.callback)
     done = len(times)
     result = np.empty(done, dtype=[*((n, numbers[n]) for n in numbers.names or ()), ("toi", "O")])
     for name in numbers.names or ():
@@ -219,23 +217,6 @@ def decide(
     if done < len(array):
         raise Interrupted(Decisions(result))
     return Decisions(result.reshape(()) if single else result)
-
-
-def _decide_curves(
-    kind: Kind, queries: list[Any], items: Any, separation: float, norm: Norm, callback: Callable[..., None] | None
-) -> list[Any]:
-    """Fill items; return the times of the queries up to Ctrl-C."""
-    times: list[Any] = []
-    try:
-        for i, query in enumerate(queries):
-            time, lower, upper = exact_module().decide_curved(kind, query, separation, norm)
-            items["collides"][i], items["toi_lower"][i], items["toi_upper"][i] = time is not None, lower, upper
-            times.append(time)
-            if callback is not None:
-                callback(i + 1)
-    except KeyboardInterrupt:
-        pass
-    return times
 
 
 @checked

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _fast
-from ._input import Doubles, Interrupted, Norm, as_doubles, as_indices, as_vertices, checked
+from ._input import Doubles, Interrupted, Norm, as_doubles, as_indices, as_motion, as_vertices, checked
 from ._tool import Progress
 from .exact import exact_module
 
@@ -185,7 +185,7 @@ def _as_thickness(
 
 
 class Step:
-    """A step of a mesh whose vertices move on straight lines from t=0 to t=1.
+    """A step of a mesh whose vertices move from t=0 to t=1, on straight lines or on Bézier curves.
 
     Two primitives collide if they have a common point at some time, or come within the separation. An
     element inverts if its volume is 0 or negative at some time.
@@ -195,7 +195,10 @@ class Step:
     Parameters
     ----------
     before, after : array_like of shape (n, 3)
-        The vertices at t=0 and at t=1; copied.
+        The vertices at t=0 and at t=1; copied. On curves, `before` alone: the control points of each vertex
+        from t=0 to t=1, of shape (n, degree + 1, 3), or (n, degree + 1, 4) with positive weights last. On
+        curves, elements cannot invert, and methods about distances, contacts, step sizes and proofs raise
+        ValueError.
     faces : array_like of int, shape (f, 3), optional
         The faces by the numbers of their vertices.
     edges : array_like of int, shape (e, 2), optional
@@ -272,7 +275,7 @@ class Step:
     def __init__(
         self,
         before: npt.ArrayLike,
-        after: npt.ArrayLike,
+        after: npt.ArrayLike | None = None,
         *,
         faces: npt.ArrayLike | None = None,
         edges: npt.ArrayLike | None = None,
@@ -292,7 +295,7 @@ class Step:
         progress: bool | None = None,
     ) -> None:
         self._progress = progress
-        self._vertices = as_vertices(before, "before"), as_vertices(after, "after")
+        self._vertices = as_motion(before, after)
         self._separation: Tuple[float, Norm] = separation, norm
         self._options = t_max, toi_tolerance, threads
         self._elements = (
@@ -328,7 +331,7 @@ class Step:
     def moved(
         self,
         before: npt.ArrayLike,
-        after: npt.ArrayLike,
+        after: npt.ArrayLike | None = None,
         *,
         separation: float | None = None,
         norm: Norm | None = None,
@@ -339,8 +342,8 @@ class Step:
 
         Parameters
         ----------
-        before, after : array_like of shape (n, 3)
-            The vertices at t=0 and at t=1.
+        before, after : array_like
+            As for `Step`.
         separation, norm : optional
             As for `Step`; by default those of this step.
 
@@ -350,7 +353,7 @@ class Step:
             The new step; this one stays as it is.
         """
         result = object.__new__(Step)
-        result._vertices = as_vertices(before, "before"), as_vertices(after, "after")
+        result._vertices = as_motion(before, after)
         result._elements = self._elements
         result._thickness = self._thickness
         result._can_collide = self._can_collide

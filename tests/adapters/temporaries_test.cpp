@@ -44,7 +44,7 @@ Eigen::MatrixX3d places(double fall) {
 }
 Eigen::MatrixX3i faces() { return Eigen::MatrixX3i{{0, 1, 2}, {3, 4, 5}}; }
 fast::Mesh mesh() { return {.faces = fast::elements_from<fast::Face>(faces())}; }
-fast::MovingVertices vertices() { return {places(0), places(3)}; }
+fast::Motion vertices() { return {places(0), places(3)}; }
 
 template <class Scalar>
 std::vector<Scalar> coordinates(double fall) {
@@ -138,15 +138,15 @@ TEST(Temporaries, AreNotNeededByAStepOnCurves) {
   const auto numbers = [] {
     std::vector<double> result;
     for (Eigen::Index vertex = 0; vertex < 6; ++vertex) {
-      for (const double fall : {0.0, 3.0}) {
+      for (const double fall : {0.0, 1.5, 3.0}) {
         const Eigen::RowVector3d place = places(fall).row(vertex);
         result.insert(result.end(), place.begin(), place.end());
       }
     }
     return result;
   };
-  fast::CurvedStep step({.numbers = numbers()}, mesh(), of_groups());
-  const fast::CurvedStep moved = std::move(step);
+  Step step(fast::Motion(2, false, numbers()), mesh(), of_groups());
+  const Step moved = std::move(step);
   write_elsewhere();
   expect_contact(moved.earliest());
 }

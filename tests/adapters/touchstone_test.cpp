@@ -260,6 +260,45 @@ TEST(CInterface, DecidesAndMeasuresAStep) {
   }
 }
 
+TEST(CInterface, TakesCurves) {
+  const Scene scene;
+  const std::vector<fast::Face> faces{{0, 1, 2}, {3, 4, 5}};
+  TouchstoneMesh mesh = scene.mesh();
+  mesh.before = mesh.after = nullptr;
+  for (const bool is_rational : {false, true}) {
+    // From place to place with one control point, halfway.
+    std::vector<double> points;
+    for (std::size_t i = 0; i < scene.before.size(); i += 3) {
+      for (const double part : {0.0, 0.5, 1.0}) {
+        for (std::size_t k = i; k < i + 3; ++k) {
+          points.push_back((1.0 - part) * scene.before[k] + part * scene.after[k]);
+        }
+        if (is_rational) points.push_back(1.0 + part);
+      }
+    }
+    mesh.degree = 2;
+    mesh.is_rational = is_rational ? 1 : 0;
+    mesh.control_points = points.data();
+    const auto owner = step_of(mesh);
+    const TouchstoneCollision* collisions = nullptr;
+    std::size_t count = 0;
+    ASSERT_EQ(touchstone_step_collisions(owner.get(), &collisions, &count), TOUCHSTONE_OK);
+    EXPECT_GT(count, 0U);
+    EXPECT_EQ(converted(collisions, count),
+              fast::Step(fast::Motion(2, is_rational, points), {.faces = faces, .points = {6}})
+                  .collisions());
+    double alpha = 0.0;
+    EXPECT_EQ(touchstone_step_free_step_size(owner.get(), &alpha), TOUCHSTONE_INVALID_ARGUMENT);
+    EXPECT_STREQ(touchstone_last_error(),
+                 "step: a step size: straight lines are needed, not curves");
+  }
+  TouchstoneStep* none = nullptr;
+  for (const std::int32_t degree : {-1, 9}) {
+    mesh.degree = degree;
+    EXPECT_EQ(touchstone_step_new(&mesh, nullptr, &none), TOUCHSTONE_INVALID_ARGUMENT);
+  }
+}
+
 TEST(CInterface, TakesRadiiAndSeparationsOfGroups) {
   const Scene scene;
   const std::vector<fast::Face> faces{{0, 1, 2}, {3, 4, 5}};
@@ -570,8 +609,7 @@ struct LineSearchOptionsOfFirstHeader {
 // The layouts of this SOVERSION, on machines of 64 bits. Only what can grow may grow, at its end.
 static_assert(sizeof(MeshOfFirstHeader) == offsetof(TouchstoneMesh, tetrahedra));
 static_assert(sizeof(TouchstoneOptions) == 40 && offsetof(TouchstoneOptions, max_threads) == 36);
-static_assert(sizeof(TouchstoneMesh) == 192 &&
-              offsetof(TouchstoneMesh, plane_triangle_vertices) == 184);
+static_assert(sizeof(TouchstoneMesh) == 208 && offsetof(TouchstoneMesh, control_points) == 200);
 static_assert(sizeof(TouchstoneLineSearchOptions) == 24 &&
               offsetof(TouchstoneLineSearchOptions, kept_volume) == 16);
 static_assert(sizeof(TouchstoneImpact) == 40 && offsetof(TouchstoneImpact, v) == 32);

@@ -104,7 +104,7 @@ TEST_P(BroadPhaseOn, FindsExactlyAllPairsWithinTheSeparation) {
 TEST(BroadPhase, GivesTheSamePairsInOneOrderWithAnyThreads) {
   Random random(14);
   const Scene scene = tests::soup(random, 10'000, 0.03);
-  const MovingVertices vertices{scene.start, scene.end};
+  const Motion vertices{scene.start, scene.end};
   const Pairs vertex_face = vertex_face_candidates(vertices, scene.faces, {.max_threads = 1}),
               edge_edge = edge_edge_candidates(vertices, scene.edges, {.max_threads = 1});
   for (const int threads : {0, 2, 1'000'000}) {
@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, BroadPhaseOn, testing::ValuesIn(all_shapes()),
 
 TEST(BroadPhase, EndsWhenItIsToStop) {
   const std::atomic<bool> stop = true;
-  const MovingVertices vertices(Eigen::MatrixX3d::Zero(6, 3), Eigen::MatrixX3d::Ones(6, 3));
+  const Motion vertices(Eigen::MatrixX3d::Zero(6, 3), Eigen::MatrixX3d::Ones(6, 3));
   const BroadPhaseOptions options{.stop = &stop};
   EXPECT_THROW((void)vertex_face_candidates(vertices, std::vector<Face>{{0, 1, 2}}, options),
                Stopped);
@@ -176,7 +176,7 @@ TEST(BroadPhase, RefusesWhatIsNotFiniteAndIndicesOutOfRange) {
 }
 
 /// Unconnected edges that all have the same swept box: every pair is a candidate.
-std::pair<MovingVertices, std::vector<Edge>> crowd(std::int32_t count) {
+std::pair<Motion, std::vector<Edge>> crowd(std::int32_t count) {
   Places points(2 * count, 3);
   std::vector<Edge> edges;
   for (std::int32_t i = 0; i < count; ++i) {
@@ -184,7 +184,7 @@ std::pair<MovingVertices, std::vector<Edge>> crowd(std::int32_t count) {
     points.row(2 * i + 1) << 1, 1, 1;
     edges.push_back({2 * i, 2 * i + 1});
   }
-  return {MovingVertices(points, points), edges};
+  return {Motion(points, points), edges};
 }
 
 TEST(BroadPhase, CountsCandidatesThatAreTooMany) {

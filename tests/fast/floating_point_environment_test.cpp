@@ -238,7 +238,7 @@ std::function<Bits()> of_broad_phase() {
   return [scenes = scenes(1, 60)] {
     Bits bits;
     for (const tests::Scene& scene : scenes) {
-      const MovingVertices vertices(scene.start, scene.end);
+      const Motion vertices(scene.start, scene.end);
       for (const double separation : {0.0, 0.1, 0x1.8p-1073}) {
         const BroadPhaseOptions options{.separation = {.distance = separation}};
         put(bits, vertex_face_candidates(vertices, scene.faces, options));

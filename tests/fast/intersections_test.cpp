@@ -637,8 +637,8 @@ TEST(Intersections, PlantedFaultsAreFound) {
       const IntersectionOptions options{
           .pairs = i % 4 == 0 ? IntersectingPairs::edges_with_faces : IntersectingPairs::all,
           .max_threads = 1};
-      is_found = fault.part(MovingVertices(mesh.vertices, mesh.vertices), mesh.elements(),
-                            options) != mesh.intersections(options);
+      is_found = fault.part(Motion(mesh.vertices, mesh.vertices), mesh.elements(), options) !=
+                 mesh.intersections(options);
     }
     EXPECT_TRUE(is_found) << fault.name;
   }

@@ -29,26 +29,26 @@ Eigen::MatrixX3d places(Eigen::Index count, double offset) {
 const std::vector<Edge> some_edges{{0, 1}, {4, 2}};
 const std::vector<Face> some_faces{{0, 1, 2}, {4, 3, 1}};
 
-TEST(MovingVertices, HoldsWhatItIsMadeFromWhateverTheStorage) {
+TEST(Motion, HoldsWhatItIsMadeFromWhateverTheStorage) {
   const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor> start =
       places(5, 0).cast<float>();
   const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> end = places(5, 100);
-  const MovingVertices vertices(start, end);
+  const Motion vertices(start, end);
   ASSERT_EQ(vertices.size(), 5U);
   EXPECT_EQ(vertices[4].start, (std::array<double, 4>{12, 13, 14, 0}));
   EXPECT_EQ(vertices[4].end, (std::array<double, 4>{112, 113, 114, 0}));
   EXPECT_EQ(vertices.data() + 4, &vertices[4]);
-  EXPECT_EQ(MovingVertices(places(0, 0), places(0, 0)).size(), 0U);
+  EXPECT_EQ(Motion(places(0, 0), places(0, 0)).size(), 0U);
 }
 
-TEST(MovingVertices, KeepSubnormalFloatsThatTheCallerTakesForZero) {
+TEST(Motion, KeepSubnormalFloatsThatTheCallerTakesForZero) {
   Eigen::Matrix<float, 2, 3> floats;
   floats << 0x1p-149F, -0x1p-149F, 0x1.8p-127F, -0x1.fffffcp-127F, -0.0F, 0x1p-126F;
   Eigen::Matrix<double, 2, 3> expected;
   expected << 0x1p-149, -0x1p-149, 0x1.8p-127, -0x1.fffffcp-127, -0.0, 0x1p-126;
-  const MovingVertices vertices = [&floats] {
+  const Motion vertices = [&floats] {
     const tests::ChangedModes changed(tests::flush_to_zero | tests::subnormals_are_zero);
-    return MovingVertices(floats, floats);
+    return Motion(floats, floats);
   }();
   for (Eigen::Index i = 0; i < 2; ++i) {
     const auto& [start, end] = vertices[static_cast<std::size_t>(i)];
@@ -59,12 +59,12 @@ TEST(MovingVertices, KeepSubnormalFloatsThatTheCallerTakesForZero) {
   }
 }
 
-TEST(MovingVertices, RefusesMatricesOfOtherShapes) {
+TEST(Motion, RefusesMatricesOfOtherShapes) {
   const Eigen::MatrixXd two_columns = Eigen::MatrixXd::Zero(5, 2);
   const Eigen::MatrixXd four_rows = Eigen::MatrixXd::Zero(4, 3);
-  EXPECT_THROW(MovingVertices(two_columns, two_columns), std::invalid_argument);
-  EXPECT_THROW(MovingVertices(places(5, 0), two_columns), std::invalid_argument);
-  EXPECT_THROW(MovingVertices(places(5, 0), four_rows), std::invalid_argument);
+  EXPECT_THROW(Motion(two_columns, two_columns), std::invalid_argument);
+  EXPECT_THROW(Motion(places(5, 0), two_columns), std::invalid_argument);
+  EXPECT_THROW(Motion(places(5, 0), four_rows), std::invalid_argument);
 }
 
 /// The same elements from matrices of all types, sizes and orders of storage.

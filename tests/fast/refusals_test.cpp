@@ -167,8 +167,6 @@ TEST(Refusals, OfElementsWithVolumes) {
                                      {Kind::vertex_face, 0}}) {
     EXPECT_THROW((void)of_flat.query_of(kind, number), std::out_of_range);
   }
-  EXPECT_THROW(CurvedStep({.numbers = std::vector<double>(24)}, {.plane_triangles = {{0, 1, 2}}}),
-               std::invalid_argument);
   for (const double kept : {-0x1p-1074, 1.0, infinity, nan}) {
     EXPECT_THROW((void)line_search_limit(step(), 0.5, {.kept_volume = kept}),
                  std::invalid_argument);

@@ -59,7 +59,7 @@ template <class Part>
 using Faults = std::vector<Fault<Part>>;
 
 // The types of the parts: functions and constants.
-using MakeBounds = std::vector<fast::VertexBounds>(const fast::MovingVertices&, double end,
+using MakeBounds = std::vector<fast::VertexBounds>(const fast::Motion&, double end,
                                                    double distance);
 using ExactDistance = fast::Distance(Kind, const Query&, double, Norm);
 using FilteredDistance = std::optional<fast::Distance>(Kind, const Query&, double, Norm);
@@ -68,7 +68,7 @@ using FindActive = std::vector<fast::ActiveContact>(const fast::Step&, const Sep
 using EncloseContact = fast::ContactEnclosure(Kind, const Query&, const fast::TimeEnclosure&,
                                               const fast::exact_stage::Parameters&,
                                               bool is_touching);
-using FindIntersections = std::vector<fast::Intersection>(fast::MovingVertices, const fast::Mesh&,
+using FindIntersections = std::vector<fast::Intersection>(fast::Motion, const fast::Mesh&,
                                                           const fast::IntersectionOptions&);
 using DecideElements = void(fast::KernelInput, double t_limit, const fast::CertifiedOptions&,
                             const fast::CertifiedKernel&, const std::function<Query(std::size_t)>&,
@@ -82,8 +82,7 @@ using DecideExactly = std::optional<fast::ExactImpact>(Kind, const Query&, const
 using DecideCurvesExactly = std::optional<fast::ExactImpact>(Kind, const CurvedQuery&,
                                                              const Separation&,
                                                              double toi_tolerance, double t_max);
-using MakeFixedPoint = fast::FixedPointVertices(const fast::MovingVertices&, double end,
-                                                double distance);
+using MakeFixedPoint = fast::FixedPointVertices(const fast::Motion&, double end, double distance);
 using MakeTightInclusion = std::unique_ptr<fast::Method>();
 using MakeCertified = std::unique_ptr<fast::Method>(const fast::CertifiedOptions&);
 

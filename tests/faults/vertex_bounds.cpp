@@ -6,10 +6,8 @@
 
 namespace touchstone::fast {
 
-std::vector<VertexBounds> vertex_bounds(const MovingVertices& vertices, double end,
-                                        double distance);
-std::vector<VertexBounds> vertex_bounds(const MovingVertices& vertices, double end,
-                                        double distance) {
+std::vector<VertexBounds> vertex_bounds(const Motion& vertices, double end, double distance);
+std::vector<VertexBounds> vertex_bounds(const Motion& vertices, double end, double distance) {
   const FloatBounds bounds(vertices, end, distance);
   std::vector<VertexBounds> result;
   for (std::size_t i = 0; i < bounds.size(); ++i) result.push_back(bounds[i]);

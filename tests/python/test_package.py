@@ -65,7 +65,7 @@ def test_all_names_exist():
 
 
 def test_former_names_are_refused_with_the_new_ones():
-    for name, new in (("certified", "solve"), ("certify", "judge"), ("decide_curved", "decide"), ("frobnicate", None)):
+    for name, new in (("certified", "solve"), ("certify", "judge"), ("decide_curved", "decide"), ("CurvedStep", "Step"), ("frobnicate", None)):
         text = rf"^touchstone\.{name} has become touchstone\.{new}\(" if new else "has no attribute 'frobnicate'"
         with pytest.raises(AttributeError, match=text):
             getattr(touchstone, name)

@@ -154,6 +154,25 @@ def test_distances_active_sets_and_line_searches():
     assert short.is_free() and short.free_step_size() == 0.25
 
 
+def test_curves():
+    line = np.array([[[1, 1, 1.0], [1, 1, -1]], *([[x, y, 0]] * 2 for x, y in ((0, 0), (4, 0), (0, 4)))])
+    bent = np.stack([line[:, 0], line[:, 0], line[:, 1]], axis=1)  # z = 1 - 2 t^2
+    weighted = np.concatenate([line, np.ones((4, 2, 1))], axis=2)
+    weighted[:, 1, 3] = 3
+    for points, time in ((line, 0.5), (bent, np.sqrt(0.5)), (weighted, 0.25)):
+        step = Step(points, faces=[[1, 2, 3]], points=[0])
+        impact = step.earliest()
+        assert impact.toi_lower <= time <= impact.toi_upper and len(step.collisions()) == 1
+        assert step.moved(points, separation=0.125).earliest().toi_upper < time
+        assert Step(points, faces=[[1, 2, 3]], points=[0], t_max=time - 1e-9).is_free()
+    for ask in (step.free_step_size, step.least_distance, step.contacts, lambda: step.line_search_limit(0.5)):
+        with pytest.raises(ValueError, match="straight lines are needed, not curves"):
+            ask()
+    for wrong in (line[0], line[:, :, :2], line[:, :1]):
+        with pytest.raises(ValueError, match="control points must have the shape"):
+            Step(wrong)
+
+
 def test_contacts_of_collisions():
     triangle = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0]])
     step = Step(

@@ -37,7 +37,7 @@ struct LabelledPairs {
 /// A step of a simulation.
 struct SimulationStep {
   std::string scene;
-  fast::MovingVertices vertices;
+  fast::Motion vertices;
   std::vector<fast::Edge> edges;
   std::vector<fast::Face> faces;
   LabelledPairs vertex_face;
@@ -110,7 +110,7 @@ struct SimulationStep {
   const std::size_t first_face = vertices + before.edges.size();
   return {
       .scene = std::string(scene_name),
-      .vertices = fast::MovingVertices(before.vertices, after.vertices),
+      .vertices = fast::Motion(before.vertices, after.vertices),
       .edges = std::move(before.edges),
       .faces = std::move(before.faces),
       .vertex_face = read_labelled_pairs(scene, "vf", {0, first_face}),

@@ -97,7 +97,7 @@ mesh::MovingMesh moving_patches(const PatchOptions& options) {
     }
   }
   return {.name = "patches",
-          .vertices = fast::MovingVertices(start, end),
+          .vertices = fast::Motion(start, end),
           .faces = faces,
           .edges = fast::edges_of(faces)};
 }

@@ -78,7 +78,7 @@ void answer(const fast::Step& step, StepQuestion question, StepCheck& check) {
   }
 }
 
-bool end_alike(const fast::MovingVertices& some, const fast::MovingVertices& others) {
+bool end_alike(const fast::Motion& some, const fast::Motion& others) {
   return std::ranges::equal(std::span(some.data(), some.size()),
                             std::span(others.data(), others.size()), {}, &fast::MovingVertex::end,
                             &fast::MovingVertex::end);
@@ -100,7 +100,7 @@ StepCheck check_step(std::optional<fast::Step>& step, const mesh::Mesh& mesh,
   StepCheck check;
   std::optional<fast::Step> part;
   check.broad_phase = work_time_of([&] {
-    fast::MovingVertices vertices(before, after);
+    fast::Motion vertices(before, after);
     if (step) {
       step.emplace(step->with_places(std::move(vertices), options.step.solve.separation));
     } else {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "touchstone/step.hpp"
+#include "touchstone/mesh.hpp"
 #include "verify/mesh/mesh_file.hpp"
 
 namespace touchstone::verify::mesh {

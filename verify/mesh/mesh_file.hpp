@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "touchstone/mesh.hpp"
-#include "touchstone/step.hpp"
 
 namespace touchstone::verify::mesh {
 

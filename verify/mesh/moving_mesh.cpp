@@ -18,7 +18,7 @@ MovingMesh read_step(const std::filesystem::path& before, const std::filesystem:
   }
   const Vertices start = frames->next(), end = frames->next();
   return {.name = before.stem().string() + "-" + after.stem().string(),
-          .vertices = fast::MovingVertices(start, end),
+          .vertices = fast::Motion(start, end),
           .faces = mesh.faces,
           .edges = mesh.edges,
           .note = mesh.note};

@@ -19,7 +19,7 @@ namespace touchstone::verify::mesh {
 /// A mesh whose vertices move in a step.
 struct MovingMesh {
   std::string name;
-  fast::MovingVertices vertices;
+  fast::Motion vertices;
   std::vector<fast::Face> faces;
   std::vector<fast::Edge> edges;
   std::string note = {};  ///< as Mesh has it

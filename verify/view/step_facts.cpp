@@ -29,7 +29,7 @@ std::vector<fast::Edge> edges_of_no_face(const mesh::Mesh& mesh) {
 }
 
 /// The positions of the vertices at t = 1.
-mesh::Vertices ends_of(const fast::MovingVertices& vertices) {
+mesh::Vertices ends_of(const fast::Motion& vertices) {
   mesh::Vertices ends(static_cast<Eigen::Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {

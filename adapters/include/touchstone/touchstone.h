@@ -186,6 +186,13 @@ typedef struct TouchstoneMesh {
   const int32_t* tetrahedron_vertices;  ///< 4 · tetrahedra
   size_t plane_triangles;
   const int32_t* plane_triangle_vertices;  ///< 3 · plane_triangles
+  /// With a degree, from 1 to 8, the vertices move on Bézier curves, and before and after are not
+  /// read. Functions that need straight lines then fail: of distances, contacts and step sizes.
+  int32_t degree;
+  int32_t is_rational;  ///< not 0: control points have positive weights
+  /// Those of each vertex from t=0 to t=1: (degree + 1) · vertices of 3 coordinates, or of 4
+  /// numbers with the weight last.
+  const double* control_points;
 } TouchstoneMesh;
 
 /// A mesh of which everything is 0 but the size.

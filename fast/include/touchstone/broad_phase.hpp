@@ -80,13 +80,13 @@ class TooManyCandidates : public std::runtime_error {
 /// std::out_of_range naming the first face with an index out of range; std::invalid_argument for
 /// invalid options; std::length_error if there are more than 2^31−1 of a primitive;
 /// TooManyCandidates; Stopped.
-[[nodiscard]] std::vector<IndexPair> vertex_face_candidates(const MovingVertices& vertices,
+[[nodiscard]] std::vector<IndexPair> vertex_face_candidates(const Motion& vertices,
                                                             std::span<const Face> faces,
                                                             const BroadPhaseOptions& options = {});
 
 /// All pairs of edges without a common vertex whose swept boxes are within the separation of each
 /// other, each pair once, the smaller index first. Otherwise like vertex_face_candidates.
-[[nodiscard]] std::vector<IndexPair> edge_edge_candidates(const MovingVertices& vertices,
+[[nodiscard]] std::vector<IndexPair> edge_edge_candidates(const Motion& vertices,
                                                           std::span<const Edge> edges,
                                                           const BroadPhaseOptions& options = {});
 

@@ -51,7 +51,6 @@
 #include <vector>
 
 #include "touchstone/mesh.hpp"
-#include "touchstone/step.hpp"
 
 namespace touchstone::fast {
 
@@ -134,12 +133,12 @@ struct IntersectionOptions {
 /// \throws std::domain_error naming the first vertex with a coordinate that is NaN or infinite;
 /// std::out_of_range naming the first element with an index out of range; std::invalid_argument for
 /// invalid groups or threads; std::length_error if there are more than 2^31−1 elements; Stopped.
-[[nodiscard]] std::vector<Intersection> intersections(MovingVertices vertices, const Mesh& mesh,
+[[nodiscard]] std::vector<Intersection> intersections(Motion vertices, const Mesh& mesh,
                                                       const IntersectionOptions& options = {});
 
 /// True if there is an intersection. Ends with the first one. (`places` has no effect.) \throws as
 /// above
-[[nodiscard]] bool has_intersections(MovingVertices vertices, const Mesh& mesh,
+[[nodiscard]] bool has_intersections(Motion vertices, const Mesh& mesh,
                                      const IntersectionOptions& options = {});
 
 /// The same for a matrix of float or double, n×3, in any storage order. \throws also
@@ -148,12 +147,12 @@ template <class Derived>
 [[nodiscard]] std::vector<Intersection> intersections(const Eigen::MatrixBase<Derived>& vertices,
                                                       const Mesh& mesh,
                                                       const IntersectionOptions& options = {}) {
-  return intersections(MovingVertices(vertices, vertices), mesh, options);
+  return intersections(Motion(vertices, vertices), mesh, options);
 }
 template <class Derived>
 [[nodiscard]] bool has_intersections(const Eigen::MatrixBase<Derived>& vertices, const Mesh& mesh,
                                      const IntersectionOptions& options = {}) {
-  return has_intersections(MovingVertices(vertices, vertices), mesh, options);
+  return has_intersections(Motion(vertices, vertices), mesh, options);
 }
 
 /// The defects of a mesh that are no intersections. All lists are ascending.
@@ -171,11 +170,11 @@ struct MeshDefects {
 };
 
 /// \throws as intersections
-[[nodiscard]] MeshDefects mesh_defects(const MovingVertices& vertices, const Mesh& mesh);
+[[nodiscard]] MeshDefects mesh_defects(const Motion& vertices, const Mesh& mesh);
 template <class Derived>
 [[nodiscard]] MeshDefects mesh_defects(const Eigen::MatrixBase<Derived>& vertices,
                                        const Mesh& mesh) {
-  return mesh_defects(MovingVertices(vertices, vertices), mesh);
+  return mesh_defects(Motion(vertices, vertices), mesh);
 }
 
 }  // namespace touchstone::fast

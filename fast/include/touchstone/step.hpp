@@ -36,9 +36,9 @@
 /// \endcode
 ///
 /// A scene is a mesh before and after the step, and rules for the pairs that can collide. Its
-/// *primitives* are faces, edges and vertices. All vertices move on straight lines from t=0 to t=1.
-/// Two primitives *collide* if they have a common point at some time, or come within the
-/// separation.
+/// *primitives* are faces, edges and vertices. All vertices move on straight lines from t=0 to t=1,
+/// or on curves. Two primitives *collide* if they have a common point at some time, or come within
+/// the separation.
 ///
 /// **Pairs in the search.** The pairs without a common vertex that the rules let collide and that
 /// are
@@ -82,18 +82,12 @@
 /// (docs/theory.md, section 10), which then ends at the first inversion. Elements do not collide;
 /// the surface of a solid does, if it is given as faces.
 ///
-/// **On curves** (CurvedStep) a vertex stays in the box around its control points, so a primitive
-/// stays in the box around those of its vertices; the candidates are the pairs of primitives whose
-/// boxes are within the separation. The pairs that can collide are the same: the theorem is about
-/// the geometry at one time.
-///
-/// | question                                        | Step | CurvedStep           |
-/// |-------------------------------------------------|------|----------------------|
-/// | earliest, collisions, is_free                   | yes  | yes                  |
-/// | inversions of elements                          | yes  | no: straight lines   |
-/// | candidates                                      | yes  | boxes().candidates() |
-/// | with_places, scaled, free_step_size, query_of   | yes  | no: straight lines   |
-/// | distances, active sets, limits of line searches | yes  | no: straight lines   |
+/// **On curves** (Motion) a vertex stays in the box around its control points, so a primitive stays
+/// in the box around those of its vertices; the candidates are the pairs of primitives whose boxes
+/// are within the separation. The pairs that can collide are the same: the theorem is about the
+/// geometry at one time. Elements that invert, step sizes, queries of pairs, distances, contacts,
+/// limits of line searches and certificates need straight lines: on curves, they throw
+/// std::invalid_argument.
 ///
 /// Answers are as exact as the certified solver's (touchstone/certified.hpp), and the same for any
 /// number of threads and any instruction set. Functions and const member functions are thread-safe.
@@ -104,6 +98,7 @@
 
 #include <array>
 #include <atomic>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -134,51 +129,6 @@ enum class PairKind : std::uint8_t {
 
 /// "vertex-face", "edge-edge", "vertex-edge", "vertex-vertex".
 [[nodiscard]] std::string_view to_string(PairKind kind);
-
-/// The elements of a scene, by vertex numbers. A vertex that no element names is not part of the
-/// scene.
-struct Mesh {
-  /// All edges: those of the faces and codimensional ones. By default the edges of the faces,
-  /// numbered as by edges_of (touchstone/broad_phase.hpp). An edge from a vertex to itself collides
-  /// like the vertex.
-  std::vector<Edge> edges = {};
-  std::vector<Face> faces = {};
-  /// Vertices that are part of the scene in any case, with or without an edge or a face.
-  std::vector<std::int32_t> points = {};
-  /// Elements whose volume is to stay positive. They do not collide, and intersections at rest do
-  /// not depend on them; nor are their vertices part of the scene by this.
-  std::vector<Tetrahedron> tetrahedra = {};
-  /// Elements whose area in the plane of x and y is to stay positive, likewise; the vertices' third
-  /// coordinates have no effect on it.
-  std::vector<Face> plane_triangles = {};
-};
-
-/// Two groups, in either order, which may be the same, and the thickness of their pairs.
-struct GroupSeparation {
-  std::array<std::int32_t, 2> groups{};
-  double distance = 0.0;  ///< in [0, 2^1000], in units of the coordinates
-
-  friend bool operator==(const GroupSeparation&, const GroupSeparation&) = default;
-};
-
-/// Rules for the pairs that can collide: two primitives can if a vertex of one and a vertex of the
-/// other are in groups that can collide. By default everything collides with everything. And the
-/// thickness of pairs, see above, by default 0; intersections of a mesh at rest do not depend on
-/// it.
-struct CollisionGroups {
-  /// The group of each vertex, from 0 on; empty: all are in group 0.
-  std::vector<std::int32_t> of_vertices = {};
-  /// Pairs of groups that cannot collide, in either order, each the group of a vertex. The same
-  /// group twice: no collisions within it, for example within an obstacle. All other pairs can
-  /// collide.
-  std::vector<std::array<std::int32_t, 2>> apart = {};
-  /// The radius of each group, from 0 on, up to the greatest group of a vertex or further; not
-  /// negative, in units of the coordinates. Empty: all are 0. No sum is above 2^1000.
-  std::vector<double> radii = {};
-  /// Pairs of groups whose distance is in place of the sum of their radii, each once, and each the
-  /// group of a vertex.
-  std::vector<GroupSeparation> separations = {};
-};
 
 struct StepOptions {
   /// The options of the decisions. Primitives within the separation, and the thickness of their
@@ -249,25 +199,20 @@ struct StepCandidates {
 
 class Step {
  public:
-  /// Makes a step from matrices before and after, of float or double in any storage order, a row
-  /// for each vertex.
+  /// Makes a step.
   /// \pre If edges are given, those of all faces are among them.
-  /// \throws std::invalid_argument unless both are n×3, or for invalid options; std::domain_error
-  /// naming the first vertex with a coordinate that is NaN or infinite; std::out_of_range naming
-  /// the first element with an index out of range; std::length_error if there are more than 2^31−1
-  /// elements of a kind.
+  /// \throws std::invalid_argument for invalid options, and for elements that invert on curves;
+  /// std::domain_error naming the first vertex with a coordinate that is NaN or infinite, or a
+  /// weight that is not positive and finite; std::out_of_range naming the first element with an
+  /// index out of range; std::length_error if there are more than 2^31−1 elements of a kind.
+  Step(Motion vertices, Mesh mesh, const StepOptions& options = {});
+
+  /// Makes a step from places before and after, as Motion takes them: matrices or spans.
+  /// \throws also std::invalid_argument as Motion.
   template <class Before, class After>
-  Step(const Eigen::MatrixBase<Before>& before, const Eigen::MatrixBase<After>& after, Mesh mesh,
-       const StepOptions& options = {})
-      : Step(MovingVertices(before, after), std::move(mesh), options) {}
-
-  /// Makes a step from x, y, z of each vertex in turn, float or double.
-  template <class Scalar>
-  Step(std::span<const Scalar> before, std::span<const Scalar> after, Mesh mesh,
-       const StepOptions& options = {})
-      : Step(rows(before), rows(after), std::move(mesh), options) {}
-
-  Step(MovingVertices vertices, Mesh mesh, const StepOptions& options = {});
+  requires std::constructible_from<Motion, const Before&, const After&> Step(
+      const Before& before, const After& after, Mesh mesh, const StepOptions& options = {})
+      : Step(Motion(before, after), std::move(mesh), options) {}
 
   ~Step();
   Step(Step&& other) noexcept;
@@ -281,7 +226,7 @@ class Step {
   /// than new ones.
   /// \throws std::invalid_argument for another number of vertices or an invalid separation;
   /// std::domain_error as above.
-  [[nodiscard]] Step with_places(MovingVertices vertices, const Separation& separation) const;
+  [[nodiscard]] Step with_places(Motion vertices, const Separation& separation) const;
   [[nodiscard]] Step with_separation(const Separation& separation) const {
     return with_places(vertices(), separation);
   }
@@ -362,7 +307,7 @@ class Step {
     return kind == PairKind::edge_edge ? Kind::edge_edge : Kind::vertex_face;
   }
 
-  [[nodiscard]] const MovingVertices& vertices() const;
+  [[nodiscard]] const Motion& vertices() const;
   /// The options that make it anew: Step(vertices(), mesh(), options()).
   [[nodiscard]] StepOptions options() const;
   /// The elements, with the edges of the faces if none were given.
@@ -374,59 +319,7 @@ class Step {
 
   explicit Step(std::unique_ptr<const Scene> scene);
 
-  template <class Scalar>
-  static auto rows(std::span<const Scalar> coordinates) {
-    if (coordinates.size() % 3 != 0) {
-      throw std::invalid_argument("vertices: each must have three coordinates");
-    }
-    using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Eigen::RowMajor>;
-    return Eigen::Map<const Rows>(coordinates.data(),
-                                  static_cast<Eigen::Index>(coordinates.size() / 3), 3);
-  }
-
   std::unique_ptr<const Scene> scene_;
-};
-
-// ---- Steps on curves ----------------------------------------------------------------------------
-
-/// The motion of vertices.
-struct CurvedVertices {
-  std::size_t degree = 1;
-  /// Weights follow the coordinates of each control point.
-  bool is_rational = false;
-  /// The control points of each vertex from t=0 to t=1: an array of shape (n, degree + 1, 3), or
-  /// (n, degree + 1, 4) with weights.
-  std::vector<double> numbers = {};
-
-  [[nodiscard]] std::size_t numbers_of_point() const { return is_rational ? 4 : 3; }
-  [[nodiscard]] std::size_t numbers_of_vertex() const { return (degree + 1) * numbers_of_point(); }
-};
-
-class CurvedStep {
- public:
-  /// \throws std::invalid_argument as require_degree, for numbers that are no whole vertices,
-  /// elements with volumes, or invalid options; std::domain_error naming the first vertex with a
-  /// coordinate that is not finite or a weight that is not positive and finite; otherwise as Step.
-  CurvedStep(CurvedVertices vertices, Mesh mesh, const StepOptions& options = {});
-
-  /// The earliest impact; nullopt if there is no collision.
-  [[nodiscard]] std::optional<StepImpact> earliest() const;
-  /// All collisions, by kinds, then by numbers.
-  [[nodiscard]] std::vector<StepCollision> collisions() const;
-  [[nodiscard]] bool is_free() const;
-
-  /// The step from the least to the greatest corners of the vertices' boxes, whose candidates are
-  /// those of this step.
-  [[nodiscard]] const Step& boxes() const { return boxes_; }
-
- private:
-  using Take = std::function<void(const StepCollision&)>;
-  /// Calls take, in several threads, for all collisions at times up to limit, until that is
-  /// negative.
-  void for_each_collision(const std::atomic<double>& limit, const Take& take) const;
-
-  CurvedVertices vertices_;
-  Step boxes_;
 };
 
 }  // namespace touchstone::fast

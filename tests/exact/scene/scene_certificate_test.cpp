@@ -316,7 +316,7 @@ TEST(StepPlaces, AgreeWithTheCheckers) {
         motion.end.at(static_cast<std::size_t>(k)) = end(i, k);
       }
     }
-    const fast::MovingVertices vertices(start, end);
+    const fast::Motion vertices(start, end);
     const double distance = random.coin() ? 0.0 : 0.1 * size;
     const Rational until = random.coin() ? 1.0 : random.uniform(0, 1);
     const StepPlaces places(vertices, distance, until);
@@ -360,7 +360,7 @@ TEST(StepPlaces, FindADirectionBetweenWhatIsNear) {
     const Eigen::RowVector3d normal =
         (start.row(2) - start.row(1)).cross(start.row(3) - start.row(1));
     start.row(0) = (start.row(1) + start.row(2) + start.row(3)) / 3 + 0.02 * normal.normalized();
-    const StepPlaces places(fast::MovingVertices(start, start), 0.0, 1);
+    const StepPlaces places(fast::Motion(start, start), 0.0, 1);
     const std::array<std::int32_t, 4> all{0, 1, 2, 3};
     const StepPlaces::Vertices vertices(all);
     found += places.direction(vertices.first(1), vertices.last(3), 0.0) ? 1 : 0;

@@ -55,7 +55,7 @@ Eigen::MatrixX3d places(int count, const Coordinate& coordinate) {
   return result;
 }
 
-std::vector<VertexBounds> bounds_of(const MovingVertices& vertices, double end, double distance) {
+std::vector<VertexBounds> bounds_of(const Motion& vertices, double end, double distance) {
   const FloatBounds bounds(vertices, end, distance);
   std::vector<VertexBounds> result;
   for (std::size_t i = 0; i < bounds.size(); ++i) result.push_back(bounds[i]);
@@ -89,7 +89,7 @@ std::vector<Place> places_of(const std::vector<VertexBounds>& bounds, const Eige
 bool are_around_places(tests::MakeBounds& make, const Eigen::MatrixX3d& start,
                        const Eigen::MatrixX3d& end, double time, double distance) {
   const std::vector<Place> all =
-      places_of(make(MovingVertices(start, end), time, distance), start, end, time);
+      places_of(make(Motion(start, end), time, distance), start, end, time);
   return std::ranges::all_of(all, [&](const Place& a) {
     return a.lower <= a.upper && std::ranges::all_of(all, [&](const Place& b) {
              return a.lower <= b.upper || a.x - b.x > Rational(distance);
@@ -101,10 +101,10 @@ bool are_around_places(tests::MakeBounds& make, const Eigen::MatrixX3d& start,
 /// overlap if these are within the distance, and surely only then.
 void expect_ordered_as_coordinates(const Eigen::MatrixX3d& start, const Eigen::MatrixX3d& end,
                                    double distance) {
-  const FloatBounds bounds(MovingVertices(start, end), 1.0, distance);
+  const FloatBounds bounds(Motion(start, end), 1.0, distance);
   EXPECT_TRUE(!bounds.are_exact() || distance == 0.0);
   const std::vector<Place> all =
-      places_of(bounds_of(MovingVertices(start, end), 1.0, distance), start, end, 1.0);
+      places_of(bounds_of(Motion(start, end), 1.0, distance), start, end, 1.0);
   for (const Place& a : all) {
     ASSERT_LE(a.lower, a.upper);
     // The sums of boxes' centres do not overflow.
@@ -210,7 +210,7 @@ TEST(FloatBounds, OfAPartAreNotWiderThanRoundingNeeds) {
   Random random(7);
   const auto coordinate = [&] { return random.uniform(1, 2); };
   const Eigen::MatrixX3d start = places(200, coordinate), end = places(200, coordinate);
-  const FloatBounds bounds(MovingVertices(start, end), 0.25);
+  const FloatBounds bounds(Motion(start, end), 0.25);
   int equal = 0;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -227,14 +227,14 @@ TEST(FloatBounds, AreExactForFloats) {
   const auto a_float = [&] { return random.few_bit_double(24, -30, 10); };
   Eigen::MatrixX3d start = places(50, a_float);
   const Eigen::MatrixX3d end = places(50, a_float);
-  const FloatBounds bounds(MovingVertices(start, end));
+  const FloatBounds bounds(Motion(start, end));
   EXPECT_TRUE(bounds.are_exact());
   // The window of usual coordinates multiplies by 8.
   EXPECT_EQ(static_cast<double>(bounds[7].lower[1][2]), 8 * end(7, 2));
   start(49, 1) = 0.1;
-  EXPECT_FALSE(FloatBounds(MovingVertices(start, end)).are_exact());
+  EXPECT_FALSE(FloatBounds(Motion(start, end)).are_exact());
   for (const double size : {0x1p-1000, 0x1p-300, 0.0, 0x1p300, 0x1p900}) {
-    EXPECT_TRUE(FloatBounds(MovingVertices(end * size, end * size)).are_exact()) << size;
+    EXPECT_TRUE(FloatBounds(Motion(end * size, end * size)).are_exact()) << size;
   }
 }
 
@@ -249,7 +249,7 @@ std::vector<std::int32_t> shuffled(int count, Random& random) {
 }
 
 FloatBounds bounds_at_rest(const Eigen::MatrixX3d& points) {
-  return FloatBounds(MovingVertices(points, points));
+  return FloatBounds(Motion(points, points));
 }
 
 /// Expects each vertex in one place, and repeated in the lanes after the last.

@@ -70,7 +70,7 @@ struct Trees {
     faces.fit(bounds);
   }
 
-  MovingVertices moving;
+  Motion moving;
   FloatBounds bounds;
   PrimitiveGroups vertex_groups, edge_groups, face_groups;
   BoxTree<instants> vertices, edges, faces;

@@ -20,7 +20,7 @@ using tests::Random;
 using Places = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// Coordinates of one size, around an origin, that move by part of it.
-MovingVertices scene(Random& random, int exponent, double origin) {
+Motion scene(Random& random, int exponent, double origin) {
   Places start(20, 3), end(20, 3);
   for (Eigen::Index i = 0; i < start.size(); ++i) {
     start.data()[i] = std::ldexp(origin + random.uniform(-1, 1), exponent);
@@ -32,7 +32,7 @@ MovingVertices scene(Random& random, int exponent, double origin) {
 }
 
 /// The unit by its definition.
-double unit_of(const MovingVertices& vertices) {
+double unit_of(const Motion& vertices) {
   double extent = 0.0;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     for (const auto& x : {vertices[i].start, vertices[i].end}) {
@@ -45,8 +45,7 @@ double unit_of(const MovingVertices& vertices) {
 }
 
 /// The greatest error of a whole number, in units. The whole numbers must be small enough.
-Rational greatest_error(const MovingVertices& vertices, const FixedPointVertices& rounded,
-                        double end) {
+Rational greatest_error(const Motion& vertices, const FixedPointVertices& rounded, double end) {
   const Rational h(unit_of(vertices)), t(end);
   Rational greatest(0);
   const auto compare = [&](const Rational& x, double origin, std::int32_t whole) {
@@ -72,7 +71,7 @@ std::string first_fault(decltype(fixed_point_vertices)* rounded_vertices) {
     for (const double end : {1.0, 0.5, 0x1p-20, 0x1p-40}) {
       for (const double distance : {0.0, 0.125, 1e-9}) {
         const int exponent = random.between(-300, 35);
-        const MovingVertices vertices = scene(random, exponent, origin);
+        const Motion vertices = scene(random, exponent, origin);
         const double scaled = std::ldexp(distance, exponent);
         const FixedPointVertices rounded = rounded_vertices(vertices, end, scaled);
         if (rounded.vertices.data() == nullptr) continue;
@@ -100,7 +99,7 @@ TEST(FixedPointVertices, PlantedFaultsAreFound) {
 
 TEST(FixedPointVertices, DistancesAreNotMuchGreaterThanTheirRoundingNeeds) {
   Random random(2);
-  const MovingVertices vertices = scene(random, 0, 1.0);
+  const Motion vertices = scene(random, 0, 1.0);
   EXPECT_LT(fixed_point_vertices(vertices, 1.0, 0.0).distance, 1.01F);
   EXPECT_LT(fixed_point_vertices(vertices, 0.25, 0.0).distance, 1.01F);
 }

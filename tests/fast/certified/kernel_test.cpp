@@ -202,7 +202,7 @@ class Pairs {
   }
 
   Kind kind_;
-  MovingVertices vertices_;
+  Motion vertices_;
   std::vector<Edge> edges_;
   std::vector<Face> faces_;
   std::vector<IndexPair> pairs_;

@@ -122,7 +122,7 @@ struct SceneProof {
 /// \param mesh, search as of fast::intersections; all pairs are asked for, without their places
 /// \throws std::invalid_argument for a rule `can_collide`; as fast::intersections; the exceptions
 /// of on_text.
-[[nodiscard]] SceneProof prove_mesh(const fast::MovingVertices& vertices, const fast::Mesh& mesh,
+[[nodiscard]] SceneProof prove_mesh(const fast::Motion& vertices, const fast::Mesh& mesh,
                                     const fast::IntersectionOptions& search = {},
                                     const SceneProofOptions& options = {});
 
@@ -132,7 +132,7 @@ template <class Derived>
                                     const fast::Mesh& mesh,
                                     const fast::IntersectionOptions& search = {},
                                     const SceneProofOptions& options = {}) {
-  return prove_mesh(fast::MovingVertices(vertices, vertices), mesh, search, options);
+  return prove_mesh(fast::Motion(vertices, vertices), mesh, search, options);
 }
 
 }  // namespace touchstone::exact
