@@ -352,8 +352,7 @@ py::array intersections(const Doubles& vertices, const Integers& faces, const In
 void define_step(py::module_& m) {
   using py::arg;
   watch_forks();
-  // A class of the usual kind, as its stub has it.
-  py::class_<StoppableStep>(m, "Step", py::metaclass(reinterpret_cast<PyObject*>(&PyType_Type)))
+  py::class_<StoppableStep>(m, "Step")
       .def(py::init<const Doubles&, const Doubles&, const Integers&, const Integers&,
                     const Integers&, const Integers&, const Integers&, const Integers&,
                     const Integers&, const Doubles&, const Integers&, const Doubles&,

@@ -6,11 +6,13 @@ A query is an array of shape (8, 3): four points at t=0, then at t=1; a batch ha
 >>> queries = np.random.default_rng(1).normal(size=(1000, 8, 3))
 >>> touchstone.solve("edge_edge", queries)
 CertifiedResult: 1000 queries, 201 collide
+
+Ctrl-C during long work raises `Interrupted`, whose `result` is what was done until then. A function whose part this
+build lacks raises ImportError, and one that needs the command line tool FileNotFoundError, with the way out.
 """
 
 from typing import TYPE_CHECKING, NoReturn
 
-from ._fast import instruction_set
 from ._input import BatchResult, Interrupted
 from ._version import commit as __commit__
 from ._version import version as __version__
@@ -21,6 +23,7 @@ from .batch import (
     TightInclusionResult,
     Verdict,
     distance,
+    instruction_set,
     solve,
     tight_inclusion,
 )

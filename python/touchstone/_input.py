@@ -229,11 +229,6 @@ def as_indices(values: npt.ArrayLike | None, name: str, columns: int | None) -> 
 
 def load(name: str) -> ModuleType:
     """Return an extension module that not every build has.
-
-    Raises
-    ------
-    ImportError
-        If this build does not have it, or a library that it needs is missing, with the way out.
     """
     try:
         return importlib.import_module(f".{name}", __package__)

@@ -17,11 +17,6 @@ FOLDER = pathlib.Path(__file__).parent / "bin"
 
 def tool() -> str:
     """Return the path of the command line tool.
-
-    Raises
-    ------
-    FileNotFoundError
-        If neither the package nor the PATH has it.
     """
     inside = FOLDER / "touchstone"
     found = str(inside) if inside.exists() else shutil.which("touchstone")

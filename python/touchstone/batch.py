@@ -1,5 +1,8 @@
 """Batches of queries: solvers and distances, outside Python's lock."""
 
+# What the extension modules return has no type.
+# mypy: no-warn-return-any
+
 from __future__ import annotations
 
 from enum import IntEnum
@@ -9,16 +12,21 @@ from typing import Any, Callable, Type, TypeVar, cast, overload
 import numpy as np
 import numpy.typing as npt
 
-from . import _fast
 from ._input import BatchResult, Booleans, Doubles, Function, Interrupted, Kind, Norm
 from ._input import as_queries, checked, column, load
 from ._tool import Progress
 
+_fast: Any = load("_fast")
 _certified_type = np.dtype(_fast.certified_layout())
 _tight_inclusion_type = np.dtype(_fast.tight_inclusion_layout())
 _distance_type = np.dtype(_fast.distance_layout())
 
 Result = TypeVar("Result", bound=BatchResult)
+
+
+def instruction_set() -> str:
+    """Return the name of the instruction set that the solvers use on this processor."""
+    return str(_fast.instruction_set())
 
 
 def run_batch(
@@ -183,21 +191,12 @@ def solve(
         The result of an earlier call for as many queries: it is overwritten and returned. This saves
         the time of new memory, a fifth for large batches.
 
-    Returns
-    -------
-    CertifiedResult
-        Without `method`, with the arrays `collides`, `toi_lower`, `toi_upper`, `u`, `v` and `exact`.
-    Answers
-        With it, `verdict`, `collides`, `toi_lower`, `toi_upper`, `tolerance` and `checks`.
-
     Raises
     ------
     ValueError
         For another shape or type, a coordinate that is NaN or infinite, a weight that is not positive,
         options out of range or without effect, or an `out` of another function or number of queries; for an
         unknown method, with the names there are; for a separation, or curves, that it does not support.
-    Interrupted
-        At Ctrl-C, with the results of the first queries.
 
     Examples
     --------
@@ -304,17 +303,10 @@ def tight_inclusion(
     max_checks : int, optional
         After this many boxes the answer is a conservative yes; 0: no limit.
 
-    Returns
-    -------
-    TightInclusionResult
-        With the arrays `collides`, `toi`, `tolerance` and `checks`.
-
     Raises
     ------
     ValueError
         As for `solve`, and for curves of another degree.
-    Interrupted
-        At Ctrl-C, with the results of the first queries.
 
     Examples
     --------
@@ -367,17 +359,10 @@ def distance(
     norm : {"linf", "l2"}, optional
         The norm of the distances.
 
-    Returns
-    -------
-    DistanceResult
-        With the arrays `lower` and `upper`.
-
     Raises
     ------
     ValueError
         As for `solve`, and for a time outside [0, 1].
-    Interrupted
-        At Ctrl-C, with the results of the first queries.
 
     Examples
     --------

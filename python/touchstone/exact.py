@@ -5,7 +5,6 @@ from __future__ import annotations
 import reprlib
 from dataclasses import dataclass
 from fractions import Fraction
-from types import ModuleType
 from typing import Any, Callable, Literal, Sequence, Tuple, Union, cast
 
 import numpy as np
@@ -14,17 +13,6 @@ import numpy.typing as npt
 from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm
 from ._input import as_doubles, as_queries, checked, column, load
 from ._tool import Progress
-
-
-def exact_module() -> ModuleType:
-    """Return the module with the oracle.
-
-    Raises
-    ------
-    ImportError
-        If this build does not have it, or a library that it needs is missing.
-    """
-    return load("_exact")
 
 
 @dataclass(frozen=True)
@@ -169,17 +157,10 @@ def decide(
         An array as for `solve`. Or the curves of the points of a query, or of each of many, in the order v,
         f0, f1, f2 or ea0, ea1, eb0, eb1, each of its own degree.
 
-    Returns
-    -------
-    Decisions
-        With the arrays `collides`, `toi_lower`, `toi_upper` and `toi`.
-
     Raises
     ------
     ValueError
         As for `solve`, or if a curve is not valid.
-    Interrupted
-        At Ctrl-C, with the results of the first queries.
 
     Examples
     --------
@@ -195,7 +176,7 @@ def decide(
     >>> touchstone.decide("vertex_face", [vertex, *(touchstone.Curve([point]) for point in start[1:])]).toi
     Fraction(1, 2)
     """
-    module = exact_module()
+    module = load("_exact")
     array: Any
     single = _is_of_curves(queries)
     of_curves = single or (isinstance(queries, (list, tuple)) and any(map(_is_of_curves, queries)))
@@ -250,8 +231,6 @@ def prove(
         As for `solve`.
     RuntimeError
         If a certificate would exceed the limits of the format.
-    Interrupted
-        At Ctrl-C, with a stream for the first queries.
 
     Examples
     --------
@@ -263,7 +242,7 @@ def prove(
     """
     array, _ = as_queries(queries, curves=True)
     with Progress("prove", progress, queries=len(array)) as bar:
-        done, stream = exact_module().prove(kind, array, separation, norm, claim, threads, bar.callback)
+        done, stream = load("_exact").prove(kind, array, separation, norm, claim, threads, bar.callback)
     if done < len(array):
         raise Interrupted(stream)
     return bytes(stream)
@@ -367,20 +346,13 @@ def check(
         Reject whatever has other rules, which weaken a claim, than these, in the words of the report:
         "1 pair of groups held apart". Without it and without scenes "free" and "sequence" reject all.
 
-    Returns
-    -------
-    CheckReport
-        True if all certificates were accepted.
-
     Raises
     ------
     ValueError
         If the claim is none.
-    Interrupted
-        At Ctrl-C.
     """
     try:
-        report = exact_module().check(
+        report = load("_exact").check(
             certificates, scenes, claim, None if separation is None else separation.hex(), norm, rules
         )
     except KeyboardInterrupt as interrupt:
@@ -426,4 +398,4 @@ def methods() -> list[Method]:
     >>> [method.name for method in touchstone.methods()][:2]
     ['certified', 'tight_inclusion']
     """
-    return [Method(*fields) for fields in exact_module().methods()]
+    return [Method(*fields) for fields in load("_exact").methods()]

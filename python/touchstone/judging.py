@@ -93,22 +93,10 @@ def read(path: PathLike, *, kind: Kind | None = None, round: bool = False) -> Qu
     round : bool, optional
         Round coordinates that are no doubles, instead of an error.
 
-    Returns
-    -------
-    Queries
-        The queries with the labels that the file has, and the labels and times of impact in files
-        beside it (mma_bool/NAME_mma_bool.json, toi/NAME_toi.csv).
-
     Raises
     ------
     ValueError
         Naming file, line and reason.
-    FileNotFoundError
-        If there is no such file.
-    ImportError
-        If this build does not have the reader.
-    Interrupted
-        At Ctrl-C.
     """
     os.stat(path)
     module = load("_data")
@@ -135,8 +123,6 @@ def write(path: PathLike, queries: Queries) -> None:
     ValueError
         For another ending of the name, a number that is not finite, a weight that is not positive,
         a number of labels that is not that of the queries, or a path that says another kind.
-    ImportError
-        If this build does not have the writer.
     """
     module = load("_data")
     if _in_our_words(lambda: module.kind_of(os.fsencode(path))) != queries.kind:
@@ -152,11 +138,6 @@ def _write(path: PathLike, queries: Queries) -> None:
 
 def families() -> List[str]:
     """Return the names of the families of the built-in set, about contact, on curves and about inversion.
-
-    Raises
-    ------
-    ImportError
-        If this build does not have them.
     """
     return list(load("_data").families())
 
@@ -196,10 +177,6 @@ def generate(
     ------
     ValueError
         For an unknown family, a negative number, or a separation of elements.
-    ImportError
-        If this build does not have the families.
-    Interrupted
-        At Ctrl-C.
     """
     if min(count, seed) < 0:
         raise ValueError("count and seed must not be negative")
@@ -444,20 +421,11 @@ def judge(
     progress : bool, optional
         Show a line from the first second on; by default in terminals and notebooks.
 
-    Returns
-    -------
-    Judgement
-        Counts of all faults, and the wrong answers.
-
     Raises
     ------
     ValueError
         For bad data, naming file and line, a solver that cannot be sent to another process, or one that
         answers nothing.
-    FileNotFoundError
-        Without the command line tool.
-    Interrupted
-        At Ctrl-C, with the judgement on the queries until then.
 
     Examples
     --------
@@ -620,19 +588,10 @@ def fuzz(
     seed : int, optional
         The same seed and number of queries give the same findings.
 
-    Returns
-    -------
-    FuzzReport
-        The findings, the plainest of each group, with proofs of the truth.
-
     Raises
     ------
     ValueError
         For options out of range, or a solver that cannot be sent to another process.
-    FileNotFoundError
-        Without the command line tool.
-    Interrupted
-        At Ctrl-C, with the report until then.
 
     Examples
     --------
@@ -703,17 +662,10 @@ def view(
     methods : list of str, optional
         The names of `methods` to ask.
 
-    Returns
-    -------
-    View
-        Shown by a notebook; `View.save` keeps it.
-
     Raises
     ------
     ValueError
         For an array without a kind, or as for `solve`.
-    FileNotFoundError
-        Without the command line tool.
     """
     if isinstance(query, Finding):
         query = Queries(query.kind, query.query[np.newaxis], None, query.what)

@@ -1,5 +1,8 @@
 """Scenes: impacts, distances and step sizes of a moving mesh, and intersections of one at rest."""
 
+# What the extension modules return has no type.
+# mypy: no-warn-return-any
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -9,11 +12,10 @@ from typing import Any, Callable, Literal, Mapping, Tuple, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from . import _fast
-from ._input import Doubles, Interrupted, Norm, as_doubles, as_indices, as_motion, as_vertices, checked
+from ._input import Doubles, Interrupted, Norm, as_doubles, as_indices, as_motion, as_vertices, checked, load
 from ._tool import Progress
-from .exact import exact_module
 
+_fast: Any = load("_fast")
 Value = TypeVar("Value")
 Indices = npt.NDArray[np.int32]
 
@@ -346,11 +348,6 @@ class Step:
             As for `Step`.
         separation, norm : optional
             As for `Step`; by default those of this step.
-
-        Returns
-        -------
-        Step
-            The new step; this one stays as it is.
         """
         result = object.__new__(Step)
         result._vertices = as_motion(before, after)
@@ -506,11 +503,6 @@ class Step:
         kept_volume : float, optional
             The part of its volume at t=0 of which an element must keep more, in [0, 1). With 0, no
             element inverts.
-
-        Returns
-        -------
-        LineSearchLimit
-            The step size, the reason for it, and the pairs and elements that limit it.
         """
         status, size, (lower, upper), pairs, inversions = self._search(
             lambda progress: self._step.line_search_limit(p, norm, of_pair, kept_volume, progress)
@@ -552,21 +544,12 @@ class Step:
         label : str, optional
             A line of text for the certificate.
 
-        Returns
-        -------
-        SceneProof
-            The claim that is proved, "no_contact T" or "earliest LO HI", and its certificate.
-
         Raises
         ------
         ValueError
             If the step has a rule `can_collide`, which certificates cannot have.
         RuntimeError
             If the certificate would exceed the limits of the format.
-        ImportError
-            If this build does not have the oracle.
-        Interrupted
-            At Ctrl-C.
 
         Examples
         --------
@@ -584,7 +567,7 @@ class Step:
             raise ValueError("prove: certificates know groups alone, not a rule can_collide")
         t_max, _, threads = self._options
         arguments = (*self._vertices, *self._elements, *self._thickness, *self._separation, t_max)
-        return _proved("Step.prove", exact_module().prove_step, arguments, threads, label, self._progress)
+        return _proved("Step.prove", load("_exact").prove_step, arguments, threads, label, self._progress)
 
 
 def _at_rest(
@@ -700,21 +683,12 @@ def prove_mesh(
     label : str, optional
         A line of text for the certificate.
 
-    Returns
-    -------
-    SceneProof
-        The claim that is proved, "intersections N" or "welded_intersections N", and its certificate.
-
     Raises
     ------
     ValueError, IndexError
         As `intersections`.
     RuntimeError
         If the certificate would exceed the limits of the format.
-    ImportError
-        If this build does not have the oracle.
-    Interrupted
-        At Ctrl-C.
 
     Examples
     --------
@@ -727,4 +701,4 @@ def prove_mesh(
     CheckReport: 1 accepted, 0 rejected
     """
     arguments = (*_at_rest(vertices, faces, edges, points, groups, apart), weld)
-    return _proved("prove_mesh", exact_module().prove_mesh, arguments, threads, label, progress)
+    return _proved("prove_mesh", load("_exact").prove_mesh, arguments, threads, label, progress)

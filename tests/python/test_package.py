@@ -5,7 +5,6 @@ from __future__ import annotations
 import doctest
 import importlib
 import inspect
-import os
 import pathlib
 import pkgutil
 import re
@@ -96,15 +95,6 @@ def package_folder() -> pathlib.Path:
 def test_types_are_strict(tmp_path):
     command = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", tmp_path, package_folder()]
     done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout
-
-
-@pytest.mark.parametrize("stub", sorted(path.stem for path in package_folder().glob("*.pyi")))
-def test_stubs_say_what_the_modules_have(stub, tmp_path):
-    command = [sys.executable, "-m", "mypy.stubtest", f"touchstone.{stub}"]
-    done = subprocess.run(
-        command, capture_output=True, text=True, cwd=package_folder().parent, env={**os.environ, "MYPY_CACHE_DIR": str(tmp_path)}
-    )
     assert done.returncode == 0, done.stdout
 
 
