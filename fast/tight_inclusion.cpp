@@ -239,9 +239,8 @@ double round_up_to_exact(double t, int digits) {
 
 /// The kernel for queries of a shape.
 const BoxKernel& kernel_of(const QueryShape& shape, const TightInclusionOptions& options) {
-  if (shape.is_straight()) {
-    return chosen_kernels().box != nullptr ? *chosen_kernels().box : *box_kernels().back();
-  }
+  if (shape.is_straight())
+    return options.kernel != nullptr ? *options.kernel : *box_kernels().back();
   if (shape.degree < 2 || shape.degree > BoxProblem::greatest_curve_degree) {
     throw std::invalid_argument("tight_inclusion: curves must be of degree 2 or 3");
   }

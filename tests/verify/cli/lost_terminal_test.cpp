@@ -78,7 +78,6 @@ TEST_F(TerminalTool, EveryCommandEndsAtAnInterrupt) {
       {"bench", "--count", "100000000"},
       {"fuzz", "--method", "certified", "--json", summary},
       {"certify", "--degree", "rational", "--count", "1000000", "--json", summary},
-      {"derive", "--json", summary},
       // Searches that take minutes.
       {"step", before, after, "--all", "--no-intersections", "--csv", out},
       {"step", before, after, "--free", "--json", out},
