@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -474,72 +473,6 @@ TEST(AlgebraicNumber, IsComparedWithOthers) {
     }
   }
   EXPECT_GT(equal, 5);
-}
-
-// ---- Enclosures ---------------------------------------------------------------------------------
-
-/// Doubles of all magnitudes in [0,1].
-std::vector<double> doubles() {
-  Random random(59);
-  std::vector<double> samples{1.0,
-                              0.5,
-                              0.1,
-                              std::nextafter(1.0, 0.0),
-                              0x1.8p-1060,
-                              0x1p-1070,
-                              std::numeric_limits<double>::denorm_min(),
-                              std::ldexp(1.0 + 0x1p-30, -600),
-                              0x1p-1022};
-  for (int i = 0; i < 60; ++i) samples.push_back(random.uniform());
-  while (samples.size() < 120) {
-    const double x = std::abs(random.finite_double());
-    if (x <= 1.0) samples.push_back(x);
-  }
-  return samples;
-}
-
-/// Numbers at and very near doubles, where one double lies inside a cell, and beyond all doubles.
-std::vector<Polynomial> factors_of_enclosures() {
-  std::vector<Polynomial> result{factor(1 - power_of_two(-60)), factor(power_of_two(-1100)),
-                                 factor(power_of_two(-1075)), radical(power_of_two(-3000), 2),
-                                 radical(power_of_two(-4000), 3),
-                                 // Between subnormal numbers, and between normal ones far below 1.
-                                 radical(power_of_two(-2139), 2), radical(power_of_two(-2045), 2),
-                                 factor(3 * power_of_two(-1075)), radical(power_of_two(-3100), 3),
-                                 radical(power_of_two(-1200) * (1 + power_of_two(-30)), 2),
-                                 factor(power_of_two(-600) * (1 + power_of_two(-53)))};
-  for (const double x : doubles()) result.push_back(factor(Rational(x)));
-  for (const double x : {0.5, 0.1, 0x1p-1022, 0x1.8p-1060, 0x1.fffffffffffffp-1}) {
-    for (const long distance : {1100L, 3000L}) {
-      result.push_back(factor(Rational(x) - power_of_two(-distance)));
-      result.push_back(factor(Rational(x) + power_of_two(-distance)));
-    }
-  }
-  // Cells are refined to the levels 64, 128, …: these magnitudes are where such a cell is about as
-  // wide as two or four steps between doubles.
-  Random random(63);
-  for (const int level : {64, 128, 256, 512, 1024}) {
-    for (int binade = 50 - level; binade <= 56 - level; ++binade) {
-      for (int round = 0; round < 6; ++round) {
-        const double x = std::ldexp(random.uniform(1.0, 2.0), binade);
-        const Rational a(x), step = Rational(std::nextafter(x, 1.0)) - a;
-        for (const Rational& r : {a, Rational(a + step / 3), Rational(a - step / 3)}) {
-          result.push_back(factor(r));
-        }
-        result.push_back(radical(a * a + step * a, 2));
-        result.push_back(radical(a * a - step * a, 2));
-      }
-    }
-  }
-  return result;
-}
-
-TEST(AlgebraicNumber, IsEnclosedByTheDoubleThatItIsOrTwoNeighbours) {
-  for (const Polynomial& p : factors_of_enclosures()) expect_tight(hidden(p));
-  for (const double x : doubles()) {
-    EXPECT_EQ(AlgebraicNumber(Rational(x)).enclosure(), (DoubleInterval{x, x}));
-  }
-  EXPECT_EQ(AlgebraicNumber(Rational(0)).enclosure(), (DoubleInterval{0.0, 0.0}));
 }
 
 // ---- Quotients ----------------------------------------------------------------------------------

@@ -1,8 +1,7 @@
 /// \file
 /// The checker on one certificate: those of certificates.txt, where every claim, feature, form of
 /// contact, word and number is accepted, and every rule rejects what breaks it with line and
-/// reason; the limits; and curves. (certificate_mutation_test.cpp alters certificates against the
-/// oracle.)
+/// reason; the limits; and curves. (verified_agreement.py alters certificates at random.)
 
 #include "exact/checker/certificate.hpp"
 
