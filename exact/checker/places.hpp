@@ -94,6 +94,11 @@ class Places {
   Places(const std::vector<Motion>& vertices, double distance, const mpq_class& end,
          const Thickness& thickness = {});
 
+  /// Space is enlarged by 2^shift.
+  [[nodiscard]] int shift() const { return shift_; }
+  [[nodiscard]] const MovingBox& box(std::int32_t vertex) const {
+    return vertices_[static_cast<std::size_t>(vertex)];
+  }
   /// The distance of a pair, enlarged and rounded up.
   [[nodiscard]] std::int64_t enlarged(double distance) const;
 
@@ -131,7 +136,6 @@ class Places {
   std::vector<MovingBox> vertices_;
   /// Of each vertex, enlarged; empty without thickness.
   std::vector<std::int64_t> reaches_;
-  /// The enlargement is by 2^shift.
   int shift_;
   /// The scene's D.
   std::int64_t distance_;

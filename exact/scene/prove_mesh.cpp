@@ -15,9 +15,8 @@
 #include "exact/checker/checker.hpp"
 #include "exact/checker/resting_mesh.hpp"
 #include "exact/contact/triangle_intersection.hpp"
+#include "exact/scene/directions.hpp"
 #include "exact/scene/scene_text.hpp"
-#include "fast/platform/floating_point_state.hpp"
-#include "fast/platform/threads.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/number.hpp"
@@ -309,13 +308,16 @@ class MeshProver : private ProofWriter {
           scene_.apart, scene_.vertices.size() - elements_.vertices_of_elements());
       proof().contact = "intersect";
       const std::vector<fast::IndexPair> apart = pairs_to_argue();
-      lines_ = intersecting_.size() + apart.size();
-      require_few_arguments(lines_);
-      proof().directions = apart.size();
+      expect_arguments(intersecting_.size() + apart.size(), 0);
       write_scene();
-      write_lines(intersecting_, [&](const fast::IndexPair& pair) { return common_point(pair); });
+      write_arguments(intersecting_.size(), [&](std::size_t i, Arguments& arguments) {
+        add(intersecting_[i], common_point(intersecting_[i]), arguments);
+      });
       put("separations\n");
-      write_lines(apart, [&](const fast::IndexPair& pair) { return argument(pair); });
+      write_arguments(apart.size(), [&](std::size_t i, Arguments& arguments) {
+        add(apart[i], argument(apart[i]), arguments);
+        ++arguments.directions;
+      });
       require_few_comparisons();
     } catch (const CertificateLimitError& error) {
       proof().failure = error.what();
@@ -373,31 +375,11 @@ class MeshProver : private ProofWriter {
     return pairs;
   }
 
-  /// Writes a line for each pair, which line(pair) makes; empty if it cannot.
-  template <class Line>
-  void write_lines(std::span<const fast::IndexPair> pairs, const Line& line) {
-    static constexpr std::size_t block = 4'096;
-    for (std::size_t done = 0; done < pairs.size() && proof().is_complete(); done += block) {
-      const auto some = pairs.subspan(done, std::min(block, pairs.size() - done));
-      std::vector<std::string> lines(some.size());
-      fast::with_threads(options().max_threads, [&] {
-        fast::tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t i) {
-          const fast::StrictFloatingPoint strict;
-          if (!is_stopped()) lines[i] = line(some[i]);
-        });
-      });
-      proof().interrupted = is_stopped();
-      const auto missing = std::ranges::find(lines, "");
-      if (!proof().interrupted && missing != lines.end()) {
-        const auto& [a, b] = some[static_cast<std::size_t>(missing - lines.begin())];
-        proof().failure = "no argument for the elements " + words(a, "and", b);
-      }
-      if (!proof().is_complete()) return;
-      std::string text;
-      for (const std::string& one : lines) text += one;
-      put(text);
-      report(lines_written_ += some.size(), lines_);
-    }
+  /// Adds the line of a pair; an empty one is a failure.
+  static void add(const fast::IndexPair& pair, const std::string& line, Arguments& arguments) {
+    arguments.text += line;
+    if (!line.empty()) return;
+    arguments.failure = "no argument for the elements " + words(pair[0], "and", pair[1]);
   }
 
   /// \throws CertificateLimitError if the checker would compare too many boxes for this text.
@@ -453,24 +435,17 @@ class MeshProver : private ProofWriter {
   }
 
   /// A normal of small integers.
-  [[nodiscard]] std::optional<std::array<std::int64_t, 3>> small_normal(
-      const fast::IndexPair& numbers, const PairPlaces& places) const {
+  [[nodiscard]] std::optional<checker::Direction> small_normal(const fast::IndexPair& numbers,
+                                                               const PairPlaces& places) const {
     static constexpr double tolerance = 1e-12;
     std::vector<Triple<double>> all = differences<double>(places);
     for (Triple<double>& g : all) g = normalized(g);
     const Triple<double> d = central_direction(all, tolerance);
-    const double greatest = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
-    if (!(greatest > 0.0) || !std::isfinite(greatest)) return std::nullopt;
-    for (const double size : {1., 2., 3., 5., 8., 13., 24., 44., 80., 150., 290., 550., 1023.}) {
-      std::array<std::int64_t, 3> rounded{};
+    return rounded_direction(d, [&](const checker::Direction& rounded) {
       checker::Vector normal;
-      for (std::size_t k = 0; k < 3; ++k) {
-        rounded[k] = std::llround(d[k] / greatest * size);
-        normal[k] = static_cast<long>(rounded[k]);
-      }
-      if (elements_.is_separated_by(numbers[0], numbers[1], normal)) return rounded;
-    }
-    return std::nullopt;
+      for (std::size_t k = 0; k < 3; ++k) normal[k] = static_cast<long>(rounded[k]);
+      return elements_.is_separated_by(numbers[0], numbers[1], normal);
+    });
   }
 
   const ListedScene& listed_;
@@ -479,8 +454,6 @@ class MeshProver : private ProofWriter {
   checker::RestingMesh elements_;
   std::vector<fast::IndexPair> intersecting_;  ///< in order
   std::int64_t comparisons_ = 0;               ///< of boxes, in the checker's search
-  std::size_t lines_ = 0;                      ///< of all pairs
-  std::size_t lines_written_ = 0;
 };
 
 }  // namespace

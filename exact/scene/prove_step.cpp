@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <array>
-#include <iterator>
+#include <cmath>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -10,12 +10,11 @@
 #include <vector>
 
 #include "exact/certificate/separation_intervals.hpp"
+#include "exact/checker/places.hpp"
 #include "exact/checker/summary.hpp"
 #include "exact/contact/corner_motion.hpp"
+#include "exact/scene/directions.hpp"
 #include "exact/scene/scene_text.hpp"
-#include "exact/scene/step_places.hpp"
-#include "fast/platform/floating_point_state.hpp"
-#include "fast/platform/threads.hpp"
 #include "fast/step/codimensional.hpp"
 #include "fast/step/scene.hpp"
 #include "touchstone/certificate.hpp"
@@ -35,38 +34,24 @@ struct Pair {
   [[nodiscard]] std::string_view kind_name() const { return step_pair_kinds.at(kind_number()); }
 };
 
-/// The vertices of a pair's primitives, each once.
-struct PairVertices {
+/// The vertices of a pair's primitives.
+class PairVertices {
+ public:
   PairVertices(const fast::Step& step, const Pair& pair)
-      : all(step.vertices_of(pair.kind, pair.numbers)) {
-    const std::span points(all);
-    switch (pair.kind) {
-      case fast::PairKind::edge_edge:
-        first = points.first(2);
-        second = points.last(2);
-        return;
-      case fast::PairKind::vertex_face:
-        first = points.first(1);
-        second = points.last(3);
-        return;
-      case fast::PairKind::vertex_edge:
-        first = points.first(1);
-        second = points.subspan(1, 2);
-        return;
-      case fast::PairKind::vertex_vertex:
-        first = points.first(1);
-        second = points.subspan(1, 1);
-    }
-  }
-  PairVertices(const PairVertices&) = delete;
-  PairVertices& operator=(const PairVertices&) = delete;
-  PairVertices(PairVertices&&) = delete;
-  PairVertices& operator=(PairVertices&&) = delete;
-  ~PairVertices() = default;
+      : all_(step.vertices_of(pair.kind, pair.numbers)), counts_(counts.at(pair.kind_number())) {}
 
-  std::array<std::int32_t, moving_points> all;
-  StepPlaces::Vertices first;
-  StepPlaces::Vertices second;
+  [[nodiscard]] PrimitiveVertices first() const { return std::span(all_).first(counts_[0]); }
+  [[nodiscard]] PrimitiveVertices second() const {
+    return std::span(all_).subspan(counts_[0], counts_[1]);
+  }
+
+ private:
+  using Counts = std::array<std::size_t, 2>;
+  /// By the kinds of pairs.
+  static constexpr std::array<Counts, 4> counts{{{1, 3}, {2, 2}, {1, 2}, {1, 1}}};
+
+  std::array<std::int32_t, moving_points> all_;
+  Counts counts_;
 };
 
 /// The name of a kind of elements in certificates.
@@ -112,14 +97,6 @@ std::optional<FirstContact> first_contact(const fast::Step& step) {
   return FirstContact{std::move(first->name), prove(first->kind, first->query, first->decision)};
 }
 
-/// The arguments of some pairs, as text.
-struct PairArguments {
-  std::string text;
-  std::uint64_t directions = 0;
-  std::uint64_t certificates = 0;
-  std::string failure;
-};
-
 class StepProver : private ProofWriter {
  public:
   StepProver(const fast::Step& step, const ListedScene& scene, const SceneProofOptions& options)
@@ -132,13 +109,15 @@ class StepProver : private ProofWriter {
       end_ = first ? first->certificate.toi.lower : Rational(decisions_.t_max);
       const bool is_at_zero = first && sgn(first->certificate.toi.upper) == 0;
       const std::vector<Pair> pairs = is_at_zero ? std::vector<Pair>() : needed_pairs();
-      require_few_arguments(pairs.size());
+      const std::size_t tetrahedra = scene_.mesh.tetrahedra.size();
+      const std::size_t triangles = scene_.mesh.plane_triangles.size();
+      expect_arguments(pairs.size(), tetrahedra + triangles);
       write_scene();
       write_claim(first);
       if (!is_at_zero) {
-        write_arguments(pairs);
-        write_volumes(Kind::tetrahedron, scene_.mesh.tetrahedra.size());
-        write_volumes(Kind::plane_triangle, scene_.mesh.plane_triangles.size());
+        write_pairs(pairs);
+        write_volumes(Kind::tetrahedron, tetrahedra);
+        write_volumes(Kind::plane_triangle, triangles);
       }
     } catch (const CertificateLimitError& error) {
       proof().failure = error.what();
@@ -181,38 +160,36 @@ class StepProver : private ProofWriter {
   }
 
   void write_claim(const std::optional<FirstContact>& first) {
-    StepClaim claim{.separation = decisions_.separation, .end = end_};
+    const auto& [distance, norm] = decisions_.separation;
+    std::string& claim = proof().claim;
+    claim = first ? "earliest " : "no_contact ";
+    write_number(claim, end_);
+    if (first) write_number(claim += ' ', first->certificate.toi.upper);
+    proof().contact =
+        checker::contact_text({.distance = distance, .is_l2 = norm == Norm::l2},
+                              !scene_.rules.radii.empty() || !scene_.rules.separations.empty());
+    std::string text = "separation ";
+    write_hexadecimal(text, distance);
+    text.append(" ").append(to_string(norm)).append("\n");
+    write_line(text, "claim", claim);
     if (first) {
-      claim.earliest = {.upper = first->certificate.toi.upper,
-                        .name = first->name,
-                        .proof = *first->certificate.contact};
+      write_line(text, first->name);
+      write_contact(text, *first->certificate.contact);
     }
-    proof().claim = to_text(claim);
-    proof().contact = checker::contact_text(
-        {.distance = claim.separation.distance, .is_l2 = claim.separation.norm == Norm::l2},
-        !scene_.rules.radii.empty() || !scene_.rules.separations.empty());
-    std::string text;
-    write_step_claim(text, claim);
     put(text);
   }
 
-  // ---- The arguments of pairs ----
+  // ---- The arguments ----
 
-  void write_arguments(std::span<const Pair> pairs) {
+  void write_pairs(std::span<const Pair> pairs) {
     put(std::string("sweep ") + "xyz"[longest_axis()] + '\n');
-    static constexpr std::size_t block = 32'768;
-    std::size_t done = 0;
     for (std::size_t kind = 0; kind < step_pair_kinds.size(); ++kind) {
+      if (!proof().is_complete()) return;
       put(std::string(step_pair_kinds.at(kind)) + '\n');
-      const auto end = static_cast<std::size_t>(
-          std::ranges::find_if(pairs.begin() + static_cast<std::ptrdiff_t>(done), pairs.end(),
-                               [&](const Pair& pair) { return pair.kind_number() != kind; }) -
-          pairs.begin());
-      for (; done < end; done = std::min(done + block, end)) {
-        write_block(pairs.subspan(done, std::min(block, end - done)));
-        if (!proof().is_complete()) return;
-        report(std::min(done + block, end), pairs.size());
-      }
+      const auto some = std::ranges::equal_range(pairs, kind, {}, &Pair::kind_number);
+      write_arguments(some.size(), [&](std::size_t i, Arguments& arguments) {
+        argue(some[static_cast<std::ptrdiff_t>(i)], arguments);
+      });
     }
   }
 
@@ -239,10 +216,15 @@ class StepProver : private ProofWriter {
     // A bound of the distances at which pairs are in contact.
     const double greatest =
         decisions_.separation.distance + fast::scene_of(step_).greatest_thickness();
-    places_.emplace(step_.vertices(), greatest, end_);
+    std::vector<checker::Motion> motions(step_.vertices().size());
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      const auto& [start, end] = step_.vertices()[i];
+      motions[i] = {{start[0], start[1], start[2]}, {end[0], end[1], end[2]}};
+    }
+    places_.emplace(motions, greatest, end_);
     // The checker's integers may bring boxes a little nearer.
     Separation wider = decisions_.separation;
-    wider.distance += places_->uncertainty();
+    wider.distance += std::ldexp(8.0, -places_->shift());
     const fast::Step near = step_.with_separation(wider);
     std::vector<Pair> pairs;
     std::mutex mutex;
@@ -252,7 +234,9 @@ class StepProver : private ProofWriter {
         const Pair pair{some.kind, numbers};
         const PairVertices vertices(step_, pair);
         const double distance = step_.separation_of(pair.kind, pair.numbers).distance;
-        if (!places_->is_axis_between(vertices.first, vertices.second, distance)) {
+        if (!places_->is_axis_between(primitive_of(vertices.first()),
+                                      primitive_of(vertices.second()),
+                                      places_->enlarged(distance))) {
           needed.push_back(pair);
         }
       }
@@ -264,45 +248,16 @@ class StepProver : private ProofWriter {
     return pairs;
   }
 
-  void write_block(std::span<const Pair> pairs) {
-    write_parts(pairs.size(),
-                [&](std::size_t i, PairArguments& arguments) { argue(pairs[i], arguments); });
-  }
-
-  /// Writes the arguments that argue(i, arguments) adds for each i < count.
-  template <class Argue>
-  void write_parts(std::size_t count, const Argue& argue_one) {
-    static constexpr std::size_t part = 256;
-    std::vector<PairArguments> parts((count + part - 1) / part);
-    fast::with_threads(options().max_threads, [&] {
-      fast::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t n) {
-        const fast::StrictFloatingPoint strict;
-        if (is_stopped()) return;
-        for (std::size_t i = n * part; i < std::min(count, (n + 1) * part); ++i) {
-          argue_one(i, parts[n]);
-        }
-      });
-    });
-    proof().interrupted = is_stopped();
-    for (const PairArguments& some : parts) {
-      if (proof().failure.empty()) proof().failure = some.failure;
-      if (!proof().is_complete()) return;
-      put(some.text);
-      proof().directions += some.directions;
-      proof().certificates += some.certificates;
-    }
-  }
-
   /// Writes the subintervals of the elements of a kind that need several.
   void write_volumes(Kind kind, std::size_t count) {
     if (count == 0 || !proof().is_complete()) return;
     put(words(keyword_of(kind)) + '\n');
-    write_parts(count, [&](std::size_t number, PairArguments& arguments) {
+    write_arguments(count, [&](std::size_t number, Arguments& arguments) {
       argue_volume(kind, number, arguments);
     });
   }
 
-  void argue_volume(Kind kind, std::size_t number, PairArguments& arguments) const try {
+  void argue_volume(Kind kind, std::size_t number, Arguments& arguments) const try {
     const Query element = step_.query_of(kind, static_cast<std::int32_t>(number));
     const auto subintervals = keep_volume(scale(Kind::vertex_face, element), end_);
     if (subintervals.size() == 1) return;
@@ -320,12 +275,13 @@ class StepProver : private ProofWriter {
     write_subintervals(text, subintervals);
   }
 
-  void argue(const Pair& pair, PairArguments& arguments) const {
+  void argue(const Pair& pair, Arguments& arguments) const {
     const PairVertices vertices(step_, pair);
     const Separation separation = step_.separation_of(pair.kind, pair.numbers);
     std::string& text = arguments.text;
     const auto [a, b] = pair.numbers;
-    if (const auto d = places_->direction(vertices.first, vertices.second, separation.distance)) {
+    if (const auto d =
+            find_direction(*places_, vertices.first(), vertices.second(), separation.distance)) {
       ++arguments.directions;
       return write_line(text, a, b, (*d)[0], (*d)[1], (*d)[2]);
     }
@@ -347,7 +303,7 @@ class StepProver : private ProofWriter {
   const ListedScene& scene_;
   /// The time up to which there is no contact.
   Rational end_;
-  std::optional<StepPlaces> places_;
+  std::optional<checker::Places> places_;
 };
 
 }  // namespace

@@ -6,7 +6,10 @@
 #include <tuple>
 #include <utility>
 
+#include "fast/platform/floating_point_state.hpp"
+#include "fast/platform/threads.hpp"
 #include "touchstone/broad_phase.hpp"
+#include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
 
 namespace touchstone::exact {
@@ -73,25 +76,6 @@ void ListedScene::write(std::string& text) const {
   write_list(text, "apart", rules.apart);
 }
 
-// ---- The claim of a step ------------------------------------------------------------------------
-
-std::string to_text(const StepClaim& claim) {
-  std::string text = claim.earliest ? "earliest " : "no_contact ";
-  write_number(text, claim.end);
-  if (claim.earliest) write_number(text += ' ', claim.earliest->upper);
-  return text;
-}
-
-void write_step_claim(std::string& text, const StepClaim& claim) {
-  text += "separation ";
-  write_hexadecimal(text, claim.separation.distance);
-  text.append(" ").append(to_string(claim.separation.norm)).append("\n");
-  write_line(text, "claim", to_text(claim));
-  if (!claim.earliest) return;
-  write_line(text, claim.earliest->name);
-  write_contact(text, claim.earliest->proof);
-}
-
 // ---- Writing ------------------------------------------------------------------------------------
 
 ProofWriter::ProofWriter(const SceneProofOptions& options) : options_(options) {
@@ -109,9 +93,42 @@ void ProofWriter::put(std::string_view text) {
   }
 }
 
-void ProofWriter::report(std::size_t done, std::size_t all) const {
-  if (options_.on_progress) {
-    options_.on_progress(static_cast<double>(done) / static_cast<double>(all));
+void ProofWriter::expect_arguments(std::size_t pairs, std::size_t elements) {
+  if (pairs > scene_argument_limit) {
+    throw CertificateLimitError(
+        words(pairs, "pairs need an argument, more than", scene_argument_limit));
+  }
+  expected_ = pairs + elements;
+}
+
+void ProofWriter::write_arguments(std::size_t count,
+                                  const std::function<void(std::size_t, Arguments&)>& argue) {
+  static constexpr std::size_t block = 32'768, part = 64;
+  for (std::size_t done = 0; done < count && proof_.is_complete(); done += block) {
+    const std::size_t end = std::min(count, done + block);
+    std::vector<Arguments> parts((end - done + part - 1) / part);
+    fast::with_threads(options_.max_threads, [&] {
+      fast::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t n) {
+        const fast::StrictFloatingPoint strict;
+        const std::size_t first = done + n * part;
+        for (std::size_t i = first; i < std::min(end, first + part); ++i) {
+          if (is_stopped() || !parts[n].failure.empty()) return;
+          argue(i, parts[n]);
+        }
+      });
+    });
+    proof_.interrupted = is_stopped();
+    for (const Arguments& some : parts) {
+      proof_.failure = some.failure;
+      if (!proof_.is_complete()) return;
+      put(some.text);
+      proof_.directions += some.directions;
+      proof_.certificates += some.certificates;
+    }
+    written_ += end - done;
+    if (options_.on_progress) {
+      options_.on_progress(static_cast<double>(written_) / static_cast<double>(expected_));
+    }
   }
 }
 
@@ -123,12 +140,6 @@ SceneProof ProofWriter::finish(std::string_view header, std::string_view closing
     proof_.stream.insert(0, header).append(closing_line);
   }
   return std::move(proof_);
-}
-
-void require_few_arguments(std::size_t pairs) {
-  if (pairs <= scene_argument_limit) return;
-  throw CertificateLimitError(
-      words(pairs, "pairs need an argument, more than", scene_argument_limit));
 }
 
 }  // namespace touchstone::exact

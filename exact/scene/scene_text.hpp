@@ -2,21 +2,18 @@
 
 /// \file
 /// Certificates of scenes as text: exact/CERTIFICATES.md, "Steps", version 2, and "Meshes at rest".
-/// The scene and the claim; the arguments of pairs stand between the claim and the line "end", in
-/// the order of step_pair_kinds, and those of elements follow.
+/// The lists of the scene; and how arguments are made in parallel and written in order.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
-#include "touchstone/certificate.hpp"
-#include "touchstone/query.hpp"
 #include "touchstone/scene_certificate.hpp"
 #include "touchstone/step.hpp"
 
@@ -91,26 +88,13 @@ struct ListedScene {
   fast::CollisionGroups rules;
 };
 
-/// The claim of a step's certificate: there is no contact up to a time; or the earliest contact is
-/// one that is named.
-struct StepClaim {
-  /// A contact in (end, upper]; at 0 if both are.
-  struct Contact {
-    Rational upper;
-    std::string name;  ///< "pair KIND I J" or "element KIND I"
-    ContactProof proof;
-  };
-
-  Separation separation = {};
-  Rational end;  ///< There is no contact before.
-  std::optional<Contact> earliest = std::nullopt;
+/// The arguments of some pairs or elements.
+struct Arguments {
+  std::string text;
+  std::uint64_t directions = 0;    ///< pairs with a direction or a plane
+  std::uint64_t certificates = 0;  ///< with subintervals
+  std::string failure;             ///< the reason for a missing one
 };
-
-/// The claim as in the certificate: "no_contact T" or "earliest LO HI".
-[[nodiscard]] std::string to_text(const StepClaim& claim);
-
-/// Appends the lines of the separation and the claim.
-void write_step_claim(std::string& text, const StepClaim& claim);
 
 /// A certificate that is written.
 class ProofWriter {
@@ -126,20 +110,26 @@ class ProofWriter {
   ~ProofWriter() = default;
 
   [[nodiscard]] const SceneProofOptions& options() const { return options_; }
-  [[nodiscard]] bool is_stopped() const { return options_.stop != nullptr && *options_.stop; }
   void put(std::string_view text);
-  void report(std::size_t done, std::size_t all) const;
+  /// Says how many arguments will be written.
+  /// \throws CertificateLimitError if the checker does not take those of so many pairs.
+  void expect_arguments(std::size_t pairs, std::size_t elements);
+  /// Writes what argue(i, arguments) adds for each i < count, on several threads; nothing behind a
+  /// failure.
+  void write_arguments(std::size_t count,
+                       const std::function<void(std::size_t, Arguments&)>& argue);
   /// The proof, between these lines if it is complete and nobody has read it.
   [[nodiscard]] SceneProof finish(std::string_view header, std::string_view closing_line);
   [[nodiscard]] SceneProof& proof() { return proof_; }
   [[nodiscard]] const SceneProof& proof() const { return proof_; }
 
  private:
+  [[nodiscard]] bool is_stopped() const { return options_.stop != nullptr && *options_.stop; }
+
   const SceneProofOptions& options_;
   SceneProof proof_;
+  std::size_t expected_ = 0;  ///< arguments
+  std::size_t written_ = 0;
 };
-
-/// \throws CertificateLimitError if so many pairs need an argument.
-void require_few_arguments(std::size_t pairs);
 
 }  // namespace touchstone::exact
