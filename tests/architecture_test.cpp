@@ -48,7 +48,7 @@ constexpr std::string_view layer_lines = R"(
 // filters/ is two targets: what simulators include, which needs nothing, and the derivation of the
 // bounds, which runs Gappa by POSIX.
   filters/: filters/
-  filters/derivation/: filters/ filters/derivation/ fmt/ gmp.h gmpxx.h mpfr.h signal.h spawn.h sys/ unistd.h
+  filters/derivation/: filters/ filters/derivation/ fmt/ gmp.h gmpxx.h signal.h spawn.h sys/ unistd.h
 // Vectors, the processor's floating-point control, and large pages; oneTBB is optional.
   fast/: fast/ filters/ exact/curved_query.hpp exact/element.hpp exact/query.hpp Eigen/ arm_neon.h immintrin.h xmmintrin.h sys/mman.h
   fast/platform/: fast/platform/ filters/ arm_neon.h immintrin.h sys/mman.h xmmintrin.h

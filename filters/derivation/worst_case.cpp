@@ -25,6 +25,22 @@ struct State {
   std::vector<GroupPoint> points;
 };
 
+/// Of a number ≥ 0 over a power of two.
+double nearest_double(const mpq_class& x) {
+  mpz_class bits = x.get_num();
+  auto exponent = -static_cast<int>(mpz_scan1(x.get_den_mpz_t(), 0));
+  // The conversion rounds 62 bits to nearest; the last one stands for all that follow, too.
+  const int excess = static_cast<int>(mpz_sizeinbase(bits.get_mpz_t(), 2)) - 62;
+  if (excess > 0) {
+    const auto shift = static_cast<mp_bitcnt_t>(excess);
+    const bool is_inexact = mpz_scan1(bits.get_mpz_t(), 0) < shift;
+    bits >>= shift;
+    if (is_inexact) bits |= 1;
+    exponent += excess;
+  }
+  return std::ldexp(static_cast<double>(bits.get_si()), exponent);
+}
+
 class Search {
  public:
   Search(const ExpressionGraph& graph, const Evaluators& evaluators, const Format& format,
@@ -34,7 +50,6 @@ class Search {
         format_(format),
         digits_(format_of_bounds(format).digits),
         degree_(static_cast<int>(derive_bound(graph, format).coefficients.size()) - 1),
-        precision_(exact_precision(graph, format)),
         budget_(options.evaluations),
         random_(options.seed) {}
 
@@ -160,19 +175,18 @@ class Search {
 
   // ---- The search -------------------------------------------------------------------------------
 
-  [[nodiscard]] MpfrNumber computed(const Inputs& at) const {
-    if (format_.digits == float_format.digits) return {evaluators_.in_float(at), precision_};
-    if (format_.digits == double_format.digits) return {evaluators_.in_double(at), precision_};
+  [[nodiscard]] mpq_class computed(const Inputs& at) const {
+    if (format_.digits == float_format.digits) return mpq_class(evaluators_.in_float(at));
+    if (format_.digits == double_format.digits) return mpq_class(evaluators_.in_double(at));
     const auto [high, low] = evaluators_.in_double_double(at);
-    return MpfrNumber(high, precision_) + MpfrNumber(low, precision_);
+    return mpq_class(high) + mpq_class(low);
   }
 
   /// The error as a multiple of x^degree; counts as one evaluation.
   double error(const State& state) {
     --budget_;
     Inputs at = inputs(state);
-    const MpfrNumber exact = evaluators_.in_mpfr(at, precision_);
-    const double distance = std::abs((computed(at) - exact).to_double());
+    const double distance = nearest_double(abs(computed(at) - evaluators_.in_rationals(at)));
     double greatest = 0;
     for (const double x : at.coordinates) greatest = std::max(greatest, std::abs(x));
     const double relative = distance / std::pow(greatest, degree_);
@@ -212,44 +226,12 @@ class Search {
   const Format& format_;
   int digits_;  ///< of the inputs
   int degree_;
-  mpfr_prec_t precision_;
   std::uint64_t budget_;
   std::mt19937_64 random_;
   WorstCase worst_;
 };
 
 }  // namespace
-
-mpfr_prec_t exact_precision(const ExpressionGraph& graph, const Format& format) {
-  // Each value is an integer over 2^fraction, and below 2^magnitude.
-  struct Size {
-    mpfr_prec_t fraction;
-    mpfr_prec_t magnitude;
-  };
-  std::vector<Size> sizes;
-  mpfr_prec_t precision = double_format.digits;
-  for (const auto& [operation, left, right] : graph.nodes) {
-    switch (operation) {
-      case Operation::coordinate:
-        sizes.push_back({least_scale + format_of_bounds(format).digits - 1, 1});
-        break;
-      case Operation::weight:
-        sizes.push_back({format_of_bounds(format).digits, 1});
-        break;
-      case Operation::multiply:
-        sizes.push_back({sizes[left].fraction + sizes[right].fraction,
-                         sizes[left].magnitude + sizes[right].magnitude});
-        break;
-      case Operation::add:
-      case Operation::subtract:
-        sizes.push_back({std::max(sizes[left].fraction, sizes[right].fraction),
-                         std::max(sizes[left].magnitude, sizes[right].magnitude) + 1});
-    }
-    // One additional bit makes the difference of computed and exact value exact too.
-    precision = std::max(precision, sizes.back().fraction + sizes.back().magnitude + 1);
-  }
-  return precision;
-}
 
 WorstCase search_worst_case(const ExpressionGraph& graph, const Evaluators& evaluators,
                             const Format& format, const WorstCaseOptions& options) {

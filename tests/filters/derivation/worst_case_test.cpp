@@ -61,45 +61,6 @@ TEST(WorstCase, MeasuresCoordinatesToo) {
   }
 }
 
-/// Searches with an evaluator that fails the test if MPFR rounds.
-template <class Expression>
-void expect_exact_truth(const Format& format) {
-  Evaluators watched = evaluators<Expression>();
-  watched.in_mpfr = [](const Inputs& inputs, mpfr_prec_t precision) {
-    mpfr_clear_inexflag();
-    const MpfrNumber value = evaluators<Expression>().in_mpfr(inputs, precision);
-    EXPECT_FALSE(mpfr_inexflag_p()) << Expression::name;
-    return value;
-  };
-  const WorstCase worst =
-      search_worst_case(record<Expression>(), watched, format, {.seed = 3, .evaluations = 5'000});
-  EXPECT_GT(worst.units, 1);
-}
-
-TEST(WorstCase, ComputesTheTruthExactly) {
-  for (const Format& format : {double_format, float_format}) {
-    expect_exact_truth<EdgeEdge>(format);
-    expect_exact_truth<VertexFaceSeparated>(format);
-    expect_exact_truth<PaperVertexFace>(format);
-    expect_exact_truth<researcher::Orientation>(format);
-  }
-  expect_exact_truth<MeasuredProjectedGap>(double_format);
-  expect_exact_truth<DeterminantEnd>(double_format);
-}
-
-TEST(WorstCase, HasAPrecisionForTheSmallestAndLargestInputs) {
-  // x0 (2 − 2^-52), x1 2^-32 (1 + 2^-52), weights of 53 bits: all bits between are needed.
-  const Inputs inputs{{0x1.fffffffffffffp0, 0x1.0000000000001p-32},
-                      {0x1.fffffffffffffp-1, 0x1p-53}};
-  const mpfr_prec_t precision = exact_precision(record<Blend>(), double_format);
-  mpfr_clear_inexflag();
-  const MpfrNumber value = evaluators<Blend>().in_mpfr(inputs, precision);
-  EXPECT_FALSE(mpfr_inexflag_p());
-  EXPECT_EQ(value.to_double(), exact_value<Blend>(inputs).get_d());
-  static_cast<void>(evaluators<Blend>().in_mpfr(inputs, precision - 60));
-  EXPECT_TRUE(mpfr_inexflag_p()) << "a test of nothing: the precision is far more than is needed";
-}
-
 /// Evaluators that count their calls.
 std::uint64_t counted = 0;
 TEST(WorstCase, KeepsToItsBudget) {

@@ -4,15 +4,16 @@
 /// A search for an expression's input of greatest error, which shows how tight its bound is.
 ///
 /// It draws random inputs and climbs from the best of them, repeatedly until the budget is spent.
-/// MPFR computes the exact value at a precision without rounding: coordinates are drawn between
-/// 2^-32 and 2 and have the format's digits, weights are fractions over a power of two, so every
-/// value of the graph is an integer over a known power of two and below another one.
+/// The exact value is computed in rationals: coordinates are drawn between 2^-32 and 2, weights are
+/// fractions over a power of two.
 ///
 /// The relative rounding error is largest just above a power of two. Hence most coordinates are
 /// drawn there, and the climb tries changes of all kinds: last bits, sign, magnitude, another
 /// weight. The weights of measured coordinates (groups of one vertex,
 /// touchstone/filters/polynomial_expressions.hpp) are drawn just below 1: a coordinate times its
 /// weight is then the exact value that is rounded, not greater than the coordinate.
+
+#include <gmpxx.h>
 
 #include <array>
 #include <cstdint>
@@ -21,7 +22,6 @@
 #include <vector>
 
 #include "touchstone/derivation/expression_graph.hpp"
-#include "touchstone/derivation/mpfr_number.hpp"
 #include "touchstone/derivation/rounding_model.hpp"
 #include "touchstone/filters/double_double.hpp"
 
@@ -39,7 +39,7 @@ struct Evaluators {
   double (*in_double)(const Inputs& inputs);
   double (*in_float)(const Inputs& inputs);  ///< the inputs must be floats
   DoubleDouble<double> (*in_double_double)(const Inputs& inputs);
-  MpfrNumber (*in_mpfr)(const Inputs& inputs, mpfr_prec_t precision);
+  mpq_class (*in_rationals)(const Inputs& inputs);
 };
 
 struct WorstCaseOptions {
@@ -83,14 +83,10 @@ template <class Expression>
               return DoubleDouble<double>{x, 0};
             });
           },
-          [](const Inputs& inputs, mpfr_prec_t precision) {
-            return evaluate_with<Expression>(
-                inputs, [precision](double x) { return MpfrNumber(x, precision); });
+          [](const Inputs& inputs) {
+            return evaluate_with<Expression>(inputs, [](double x) { return mpq_class(x); });
           }};
 }
-
-/// The precision at which MPFR evaluates the expression exactly on all inputs of the search.
-[[nodiscard]] mpfr_prec_t exact_precision(const ExpressionGraph& graph, const Format& format);
 
 /// The worst input that the search finds. It depends on the arguments alone.
 [[nodiscard]] WorstCase search_worst_case(const ExpressionGraph& graph,
