@@ -54,6 +54,39 @@ inline from_chars_result from_chars(const char* first, const char* last, double&
 
 namespace ranges {
 
+/// The function of iterators for a range.
+#define TOUCHSTONE_ON_RANGE(function)                                                      \
+  template <class Range, class... More>                                                    \
+  constexpr decltype(auto) function(Range&& range, More&&... more) {                       \
+    return std::function(std::begin(range), std::end(range), std::forward<More>(more)...); \
+  }
+TOUCHSTONE_ON_RANGE(reverse)
+TOUCHSTONE_ON_RANGE(replace)
+TOUCHSTONE_ON_RANGE(count)
+TOUCHSTONE_ON_RANGE(is_sorted)
+TOUCHSTONE_ON_RANGE(move)
+TOUCHSTONE_ON_RANGE(binary_search)
+TOUCHSTONE_ON_RANGE(fill)
+TOUCHSTONE_ON_RANGE(transform)
+TOUCHSTONE_ON_RANGE(find_if)
+TOUCHSTONE_ON_RANGE(count_if)
+TOUCHSTONE_ON_RANGE(all_of)
+TOUCHSTONE_ON_RANGE(any_of)
+TOUCHSTONE_ON_RANGE(none_of)
+#undef TOUCHSTONE_ON_RANGE
+
+/// The same for two ranges.
+#define TOUCHSTONE_ON_RANGES(function)                                           \
+  template <class A, class B, class... More>                                     \
+  constexpr decltype(auto) function(A&& a, B&& b, More&&... more) {              \
+    return std::function(std::begin(a), std::end(a), std::begin(b), std::end(b), \
+                         std::forward<More>(more)...);                           \
+  }
+TOUCHSTONE_ON_RANGES(is_permutation)
+TOUCHSTONE_ON_RANGES(set_difference)
+TOUCHSTONE_ON_RANGES(equal)
+#undef TOUCHSTONE_ON_RANGES
+
 /// The order of projections, or their equality.
 template <class Less, class Projection>
 struct ProjectedLess {
@@ -70,17 +103,17 @@ template <class Range, class Less = std::less<>, class Projection = identity>
 constexpr void sort(Range&& range, Less less = {}, Projection projection = {}) {
   std::sort(std::begin(range), std::end(range), ProjectedLess<Less, Projection>{less, projection});
 }
+
 template <class Iterator, class Less = std::less<>, class Projection>
 constexpr void sort(Iterator first, Iterator last, Less less, Projection projection) {
   std::sort(first, last, ProjectedLess<Less, Projection>{less, projection});
 }
-template <class Range, class Iterator>
-constexpr void nth_element(Range&& range, Iterator nth) {
-  std::nth_element(std::begin(range), nth, std::end(range));
-}
-template <class Range>
-constexpr void reverse(Range&& range) {
-  std::reverse(std::begin(range), std::end(range));
+
+template <class Range, class Iterator, class Less = std::less<>, class Projection = identity>
+constexpr void nth_element(Range&& range, Iterator nth, Less less = {},
+                           Projection projection = {}) {
+  std::nth_element(std::begin(range), nth, std::end(range),
+                   ProjectedLess<Less, Projection>{less, projection});
 }
 
 template <class Range, class Less = std::less<>, class Projection = identity>
@@ -88,11 +121,13 @@ template <class Range, class Less = std::less<>, class Projection = identity>
   return *std::min_element(std::begin(range), std::end(range),
                            ProjectedLess<Less, Projection>{less, projection});
 }
+
 template <class Range, class Less = std::less<>, class Projection = identity>
 [[nodiscard]] constexpr auto max(Range&& range, Less less = {}, Projection projection = {}) {
   return *std::max_element(std::begin(range), std::end(range),
                            ProjectedLess<Less, Projection>{less, projection});
 }
+
 template <class Range, class Less = std::less<>, class Projection = identity>
 [[nodiscard]] constexpr auto minmax(Range&& range, Less less = {}, Projection projection = {}) {
   const auto [least, most] = std::minmax_element(std::begin(range), std::end(range),
@@ -105,6 +140,7 @@ template <class Range, class Value, class Projection = identity>
   return std::find_if(std::begin(range), std::end(range),
                       [&](const auto& item) { return invoke(projection, item) == value; });
 }
+
 template <class Range, class Value, class Less = std::less<>, class Projection = identity>
 [[nodiscard]] constexpr auto lower_bound(Range&& range, const Value& value, Less less = {},
                                          Projection projection = {}) {
@@ -112,100 +148,44 @@ template <class Range, class Value, class Less = std::less<>, class Projection =
       std::begin(range), std::end(range), value,
       [&](const auto& item, const Value& x) { return invoke(less, invoke(projection, item), x); });
 }
+
 template <class Iterator, class Less = std::less<>, class Projection>
 constexpr void nth_element(Iterator first, Iterator nth, Iterator last, Less less,
                            Projection projection) {
   std::nth_element(first, nth, last, ProjectedLess<Less, Projection>{less, projection});
 }
-template <class Range, class Value>
-constexpr void replace(Range&& range, const Value& from, const Value& to) {
-  std::replace(std::begin(range), std::end(range), from, to);
-}
+
 template <class Range, class Same = std::equal_to<>, class Projection = identity>
 [[nodiscard]] constexpr auto adjacent_find(Range&& range, Same same = {},
                                            Projection projection = {}) {
   return std::adjacent_find(std::begin(range), std::end(range),
                             ProjectedLess<Same, Projection>{same, projection});
 }
-template <class Range, class Value>
-[[nodiscard]] constexpr auto count(Range&& range, const Value& value) {
-  return std::count(std::begin(range), std::end(range), value);
-}
-template <class Range>
-[[nodiscard]] constexpr bool is_sorted(Range&& range) {
-  return std::is_sorted(std::begin(range), std::end(range));
-}
-template <class A, class B>
-[[nodiscard]] constexpr bool is_permutation(A&& a, B&& b) {
-  return std::is_permutation(std::begin(a), std::end(a), std::begin(b), std::end(b));
-}
+
 template <class Range, class Less = std::less<>, class Projection = identity>
 constexpr void stable_sort(Range&& range, Less less = {}, Projection projection = {}) {
   std::stable_sort(std::begin(range), std::end(range),
                    ProjectedLess<Less, Projection>{less, projection});
 }
-template <class Range, class Iterator>
-constexpr void move(Range&& range, Iterator to) {
-  std::move(std::begin(range), std::end(range), to);
-}
-template <class A, class B, class Iterator>
-constexpr void set_difference(A&& a, B&& b, Iterator to) {
-  std::set_difference(std::begin(a), std::end(a), std::begin(b), std::end(b), to);
-}
 
-template <class Range, class Value>
-[[nodiscard]] constexpr bool binary_search(Range&& range, const Value& value) {
-  return std::binary_search(std::begin(range), std::end(range), value);
-}
-
-template <class Range, class Value>
-constexpr void fill(Range&& range, const Value& value) {
-  std::fill(std::begin(range), std::end(range), value);
-}
 template <class Iterator>
 struct CopyResult {
   Iterator out;
 };
+
 template <class Range, class Iterator>
 constexpr CopyResult<Iterator> copy(Range&& range, Iterator to) {
   return {std::copy(std::begin(range), std::end(range), to)};
 }
+
 template <class Range, class Iterator, class Condition>
 constexpr CopyResult<Iterator> copy_if(Range&& range, Iterator to, Condition condition) {
   return {std::copy_if(std::begin(range), std::end(range), to, condition)};
 }
-template <class A, class B>
-[[nodiscard]] constexpr bool equal(const A& a, const B& b) {
-  return std::equal(std::begin(a), std::end(a), std::begin(b), std::end(b));
-}
-template <class Range, class Iterator, class Function>
-constexpr void transform(Range&& range, Iterator to, Function function) {
-  std::transform(std::begin(range), std::end(range), to, function);
-}
+
 template <class Range, class Function>
 constexpr void for_each(Range&& range, Function function) {
   for (auto&& item : range) function(item);
-}
-
-template <class Range, class Condition>
-[[nodiscard]] constexpr auto find_if(Range&& range, Condition condition) {
-  return std::find_if(std::begin(range), std::end(range), condition);
-}
-template <class Range, class Condition>
-[[nodiscard]] constexpr auto count_if(Range&& range, Condition condition) {
-  return std::count_if(std::begin(range), std::end(range), condition);
-}
-template <class Range, class Condition>
-[[nodiscard]] constexpr bool all_of(Range&& range, Condition condition) {
-  return std::all_of(std::begin(range), std::end(range), condition);
-}
-template <class Range, class Condition>
-[[nodiscard]] constexpr bool any_of(Range&& range, Condition condition) {
-  return std::any_of(std::begin(range), std::end(range), condition);
-}
-template <class Range, class Condition>
-[[nodiscard]] constexpr bool none_of(Range&& range, Condition condition) {
-  return std::none_of(std::begin(range), std::end(range), condition);
 }
 
 }  // namespace ranges
