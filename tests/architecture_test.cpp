@@ -91,7 +91,7 @@ constexpr std::string_view layer_lines = R"(
   verify/solvers/child_process.cpp: verify/solvers/ verify/io/ fcntl.h linux/ poll.h sched.h sys/ unistd.h
   verify/jobs/: verify/jobs/ verify/base/ verify/data/ verify/io/ verify/judge/ verify/mesh/ verify/solvers/ REST
   verify/fuzz/: verify/fuzz/ verify/base/ verify/data/ verify/generate/ verify/io/ verify/judge/ verify/solvers/ REST
-  verify/report/: verify/report/ verify/data/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/solvers/ REST
+  verify/report/: verify/report/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/solvers/ REST
   verify/view/: verify/view/ verify/base/ verify/data/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ verify/solvers/ REST
   verify/playground/: verify/base/ verify/judge/ verify/solvers/ verify/view/ fast/ nlohmann/ emscripten/emscripten.h
   verify/cli/: verify/cli/ verify/data/ verify/fuzz/ verify/generate/ verify/io/ verify/jobs/ verify/judge/ verify/mesh/ verify/report/ verify/solvers/ verify/view/ REST

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -137,15 +139,107 @@ io::TextRow method_row(const std::string& name, std::string_view kind,
   return row;
 }
 
-std::string wrong_answers_of(const jobs::CertifyResult& result, const jobs::MethodResult& method) {
-  return wrong_answers_text({.method = method.name,
-                             .promise = method.promise,
-                             .judgement = method.judgement,
-                             .group = result.name,
-                             .kind = kind_text(result)},
-                            [&](std::size_t i) -> data::QueryPlace {
-                              return {result.name, method.judgement.wrong_answers[i].index};
-                            });
+/// "12 late, 5 by more than 1e-12, …; at most by 0.3 of the step, 7 ulp"; empty if none is.
+std::string late_text(const judge::LateTimes& late) {
+  if (late.count == 0) return {};
+  std::string text = fmt::format("{} late", late.count);
+  for (std::size_t i = 0; i < late.beyond.size(); ++i) {
+    text += fmt::format(", {} by more than {:.0e}", late.beyond.at(i),
+                        judge::LateTimes::thresholds.at(i));
+  }
+  return fmt::format("{}; at most by {} of the step, {:.0f} ulp", text,
+                     io::error_text(late.greatest.step), late.greatest.ulps);
+}
+
+/// The queries that were not asked because of the terms, and for lack of time; empty if all were.
+std::string unasked_text(const judge::Judgement& judgement, const fast::Terms& terms) {
+  std::string text;
+  if (judgement.outside != 0) {
+    text += fmt::format("{} queries outside its terms{}", judgement.outside, judge::to_text(terms));
+  }
+  if (judgement.left_out != 0) {
+    text += fmt::format("{}{} queries skipped, for lack of time or after hangs at similar ones",
+                        text.empty() ? "" : "; ", judgement.left_out);
+  }
+  return text;
+}
+
+/// "miss", "false alarm", "wrong time", or as judge::to_text.
+std::string_view common_name(judge::Fault fault) {
+  if (fault == judge::Fault::false_negative) return "miss";
+  if (fault == judge::Fault::false_positive) return "false alarm";
+  if (fault == judge::Fault::late_toi || fault == judge::Fault::early_toi_upper) {
+    return "wrong time";
+  }
+  return judge::to_text(fault);
+}
+
+/// "SOURCE: vertex-face query 4: answer no, truth collision at 0.5".
+std::string answer_text(const jobs::CertifyResult& result, const judge::WrongAnswer& wrong) {
+  std::string text = fmt::format("{}: {} query {}: answer {}, truth {}", io::printable(result.name),
+                                 kind_text(result), wrong.index, wrong.answer, wrong.truth);
+  if (wrong.lateness) {
+    text += fmt::format(", late by {:.1e}, {:.0f} ulp", wrong.lateness->step, wrong.lateness->ulps);
+  }
+  return text;
+}
+
+/// The number of answers of a group and fault that are printed.
+constexpr std::size_t most_printed = 20;
+
+/// The positions of answers in the order of harm, later times first, else as they are.
+std::vector<std::size_t> by_harm(const std::vector<judge::WrongAnswer>& wrong,
+                                 fast::Promise promise) {
+  const auto key = [&](std::size_t i) {
+    const judge::WrongAnswer& answer = wrong[i];
+    return std::pair(
+        judge::harm_of(answer.fault, judge::is_slight(answer.fault, answer.lateness), promise),
+        answer.lateness ? -answer.lateness->step : 0.0);
+  };
+  std::vector<std::size_t> order(wrong.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, key);
+  return order;
+}
+
+/// The answers that broke the promise, the worst first, a line each; the first of a fault, then the
+/// number of further ones.
+std::string wrong_answers_text(const jobs::CertifyResult& result,
+                               const jobs::MethodResult& method) {
+  const judge::Judgement& judgement = method.judgement;
+  const std::string name = io::printable(method.name);
+  std::string text;
+  // By text: all errors together.
+  std::map<std::string_view, std::uint64_t> printed;
+  for (const std::size_t i : by_harm(judgement.wrong_answers, method.promise)) {
+    const judge::WrongAnswer& wrong = judgement.wrong_answers[i];
+    std::uint64_t& count = printed[judge::to_text(wrong.fault)];
+    if (!judge::breaks(wrong.fault, method.promise) || count == most_printed) continue;
+    ++count;
+    text +=
+        fmt::format("{}: {}: {}\n", judge::to_text(wrong.fault), name, answer_text(result, wrong));
+  }
+  for (const judge::Fault fault : judge::all_faults) {
+    const auto count = printed.extract(judge::to_text(fault));
+    const std::uint64_t all = judgement.total(fault);
+    if (count.empty() || count.mapped() != most_printed || all == most_printed) continue;
+    text += fmt::format("{}: {}: {}: and {} more\n", judge::to_text(fault), name,
+                        io::printable(result.name), all - most_printed);
+  }
+  return text;
+}
+
+using FailureCounts = std::array<std::uint64_t, judge::fault_count>;
+
+/// "1 crash, 2 undecided": the number of each kind; empty if there are none.
+std::string to_text(const FailureCounts& failures) {
+  std::string text;
+  for (const judge::Fault kind : judge::all_failures) {
+    const std::uint64_t count = failures[static_cast<std::size_t>(kind)];
+    if (count == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, judge::to_string(kind));
+  }
+  return text;
 }
 
 /// Number of missing answers, by kind, unless the solver itself was undecided.
@@ -198,7 +292,7 @@ std::string methods_text(std::size_t width, const std::vector<jobs::CertifyResul
       if (judge::keeps(method.judgement, method.promise)) continue;
       table.add(
           method_row("  " + io::printable(result.name), kind_text(result), method, tolerances));
-      wrong_answers += wrong_answers_of(result, method);
+      wrong_answers += wrong_answers_text(result, method);
     }
   }
   std::string text = '\n' + table.text();
@@ -258,33 +352,24 @@ std::uint64_t broken_answers(const jobs::MethodResult& method) {
 /// The worst answers of a solver that broke its promise, of those alike one of each source first.
 std::vector<std::string> worst_answers(const std::vector<jobs::CertifyResult>& results,
                                        std::size_t solver, std::size_t most) {
-  struct Found {
-    std::pair<int, std::size_t> order;  ///< the harm, and the number of those alike in the source
-    const jobs::CertifyResult* result;
-    const judge::WrongAnswer* wrong;
-  };
-  std::vector<Found> all;
-  std::string_view name;
+  // By the harm, and the number of those alike in the source.
+  std::multimap<std::pair<int, std::size_t>, std::string> all;
   for (const jobs::CertifyResult& result : results) {
     if (solver >= result.methods.size()) continue;
     const jobs::MethodResult& method = result.methods[solver];
-    name = method.name;
     std::map<int, std::size_t> alike;
     for (const judge::WrongAnswer& wrong : method.judgement.wrong_answers) {
       if (!judge::breaks(wrong.fault, method.promise)) continue;
       const bool is_slight = judge::is_slight(wrong.fault, wrong.lateness);
       const int harm = judge::harm_of(wrong.fault, is_slight, method.promise);
-      all.push_back({{harm, alike[harm]++}, &result, &wrong});
+      all.emplace(std::pair(harm, alike[harm]++),
+                  fmt::format("  {}: {}: {}\n", common_name(wrong.fault),
+                              io::printable(method.name), answer_text(result, wrong)));
     }
   }
-  std::ranges::stable_sort(all, {}, &Found::order);
-  if (all.size() > most) all.resize(most);
   std::vector<std::string> lines;
-  for (const Found& found : all) {
-    const data::QueryPlace place{found.result->name, found.wrong->index};
-    lines.push_back(fmt::format("  {}: {}: {}\n", common_name(found.wrong->fault),
-                                io::printable(name),
-                                answer_text(place, kind_text(*found.result), *found.wrong)));
+  for (auto& [order, line] : all) {
+    if (lines.size() < most) lines.push_back(std::move(line));
   }
   return lines;
 }
@@ -315,6 +400,21 @@ std::string wrong_text(const std::vector<jobs::CertifyResult>& results,
   return fmt::format("found: {} wrong{}\n{}", count, colon, fmt::join(lines, ""));
 }
 
+nlohmann::json json_of(const judge::WrongAnswer& wrong) {
+  return {{"index", wrong.index},
+          {"fault", judge::to_text(wrong.fault)},
+          {"answer", wrong.answer},
+          {"truth", wrong.truth}};
+}
+
+nlohmann::json json_of(const FailureCounts& failures) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const judge::Fault kind : judge::all_failures) {
+    json[judge::to_string(kind)] = failures[static_cast<std::size_t>(kind)];
+  }
+  return json;
+}
+
 nlohmann::json counts(const jobs::MethodResult& method) {
   const judge::Judgement& judged = method.judgement;
   nlohmann::json json = to_json(judged);
@@ -322,7 +422,7 @@ nlohmann::json counts(const jobs::MethodResult& method) {
                {"promise", solvers::to_string(method.promise)},
                {"terms", judge::as_options(method.terms)},
                {"queries", judged.queries},
-               {"failures", to_json(judged.faults)},
+               {"failures", json_of(judged.faults)},
                {"unplaced_crashes", judged.unplaced_crashes},
                {"missing", judged.missing},
                {"ns_per_query", io::number_to_json(method.nanoseconds_per_query())}});
@@ -338,7 +438,7 @@ nlohmann::json methods_of(const jobs::CertifyResult& result) {
 void append_wrong_answers(nlohmann::json& methods, const jobs::CertifyResult& result) {
   for (std::size_t i = 0; i < result.methods.size(); ++i) {
     for (const judge::WrongAnswer& wrong : result.methods[i].judgement.wrong_answers) {
-      nlohmann::json json = to_json(wrong);
+      nlohmann::json json = json_of(wrong);
       json.update({{"file", result.name}, {"kind", kind_text(result)}});
       methods[i]["wrong_answers"].push_back(std::move(json));
     }
@@ -486,7 +586,7 @@ nlohmann::json answers_to_json(const jobs::MethodResult& method) {
           {"undecided", asked.undecided()},
           {"errors", asked.errors_at_queries()},
           {"unasked", unasked_of(asked)},
-          {"failures", to_json(asked.faults)},
+          {"failures", json_of(asked.faults)},
           {"unplaced_crashes", asked.unplaced_crashes},
           {"ns_per_query", asked.nanoseconds_per_query()}};
 }
@@ -560,14 +660,6 @@ void add_of_query(const KnownAnswers& known, const KnownAnswer& query, KnownAnsw
   }
 }
 
-KnownAnswers wrong_answers_of(const std::vector<jobs::CertifyResult>& results) {
-  KnownAnswers all;
-  for (const jobs::CertifyResult& result : results) {
-    for (const jobs::MethodResult& method : result.methods) add_wrong_answers(all, result, method);
-  }
-  return all;
-}
-
 KnownAnswers read_baseline(const std::filesystem::path& path) {
   KnownAnswers known;
   try {
@@ -599,6 +691,20 @@ std::string baseline_document(const KnownAnswers& known) {
   }
   return fmt::format("{{\"known\": [{}\n]}}\n", rows);
 }
+
+namespace {
+
+/// The answers that broke a promise.
+/// \throws std::runtime_error if a solver has more of one fault in one file than are kept
+KnownAnswers wrong_answers_of(const std::vector<jobs::CertifyResult>& results) {
+  KnownAnswers all;
+  for (const jobs::CertifyResult& result : results) {
+    for (const jobs::MethodResult& method : result.methods) add_wrong_answers(all, result, method);
+  }
+  return all;
+}
+
+}  // namespace
 
 BaselineChange change_of(const KnownAnswers& baseline, const KnownAnswers& asked,
                          const std::vector<jobs::CertifyResult>& results) {

@@ -98,11 +98,6 @@ using KnownAnswers = std::set<KnownAnswer>;
 /// Adds the known answers about that query to others.
 void add_of_query(const KnownAnswers& known, const KnownAnswer& query, KnownAnswers& to);
 
-/// The answers that broke a promise.
-/// \throws std::runtime_error if a solver has more of one fault in one file than are kept
-/// (judge::Judgement::most_kept).
-[[nodiscard]] KnownAnswers wrong_answers_of(const std::vector<jobs::CertifyResult>& results);
-
 /// The known answers of a file as `baseline_document` writes it; those without a separation are
 /// about contact. \throws io::DatasetError
 [[nodiscard]] KnownAnswers read_baseline(const std::filesystem::path& path);
@@ -117,6 +112,8 @@ struct BaselineChange {
   KnownAnswers now;     ///< the baseline without `mended`, with `fresh`
 };
 /// \param asked those of the baseline whose queries this run has asked
+/// \throws std::runtime_error if a solver has more answers of one fault in one file than are kept
+/// (judge::Judgement::most_kept).
 [[nodiscard]] BaselineChange change_of(const KnownAnswers& baseline, const KnownAnswers& asked,
                                        const std::vector<jobs::CertifyResult>& results);
 

@@ -60,31 +60,15 @@ struct StepReport {
 /// verdict on frames.
 [[nodiscard]] std::string to_text(const StepReport& report);
 
-/// `separation` (as in bench_report.hpp), `radii` (an object of the groups' names), `separations`
-/// (a list of two names and their distance), `alpha` (or null), `question` (all, earliest or free),
-/// `vertices`, `edges`, `faces`, `tetrahedra`, `interrupted`; `frames`, a list of `name`,
-/// `intersecting` (how many pairs intersect; if it is beyond `most_intersections`, there may be
-/// more) and `intersections` (lists of the kind, the first element and its number, the second one
-/// and its number; both null if they were not searched for);
-/// and `steps`, a list of `frames` (two names), `candidates` and `collisions`
-/// (`vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`; null where they were not
-/// counted or not all asked for), `inversions` (how many elements invert, or null), `toi_lower` and
-/// `toi_upper` (null if nothing touches, or only freedom was asked for), `earliest` (the pairs of
-/// the earliest impact, as below), `free`, `intersecting` (how many pairs intersect in one of the
-/// two frames or both, or null), `free_alpha` (with alpha), `proof` (if a certificate was written:
-/// `claim`, `rules`, `directions` and `certificates`, the pairs that are argued by each, `bytes`,
-/// and `complete`), and `seconds` and `processor_seconds` (`broad_phase`, `narrow_phase`, `total`);
-/// and `proved`, what touchstone-check says of all certificates (empty if there is nothing).
-///
-/// A pair of `earliest`, if contacts were asked for, has `kind`, `first`, `second` (numbers from
-/// 0), `toi_lower`, `toi_upper`, `u`, `v`, `points` (on the first primitive and on the second),
-/// `normal`, `point_error`, `normal_error` ("Infinity" where there is no normal, or no bound) and
-/// `has_side`, as fast::ActiveContact. An element of `earliest` follows the pairs, with `kind`
-/// (tetrahedron), `element`, `start`, `toi_lower` and `toi_upper`, as fast::StepInversion.
+/// As docs/cli.md, "Steps", says. `intersections` of a frame are lists of the kind, the first
+/// element and its number, the second one and its number; of counts and times that were not asked
+/// for or do not exist there is null. `proof` has `claim`, `rules`, `directions` and
+/// `certificates`, the pairs that are argued by each, `bytes`, and `complete`; `seconds` have
+/// `broad_phase`, `narrow_phase` and `total`. A pair of `earliest` is as fast::ActiveContact, if
+/// contacts were asked for, and an element, behind the pairs, as fast::StepInversion.
 [[nodiscard]] nlohmann::json to_json(const StepReport& report);
 
-/// step,frame0,frame1,kind,first,second,toi_lower,toi_upper,u,v,first_x,first_y,first_z,second_x,
-/// second_y,second_z,normal_x,normal_y,normal_z,point_error,normal_error,has_side,start
+/// The names of the columns (docs/cli.md, "Steps").
 [[nodiscard]] std::string step_csv_header();
 
 /// A row for each contact of step `i`, then for each inversion, with the kind, its element as
