@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -139,17 +138,6 @@ Written write_npy(data::QuerySource& source, const Separation& separation, const
   });
   queries.close();
   return written;
-}
-
-/// \throws std::runtime_error if the folder has queries for another separation.
-void require_same_separation(const fs::path& folder, const Separation& separation) {
-  const bool has_queries = std::ranges::any_of(
-      all_kinds, [&](Kind kind) { return fs::exists(folder / to_string(kind)); });
-  const Separation recorded = data::recorded_separation(folder / "any");
-  if ((!has_queries && is_zero(recorded)) || judge::same_separation(recorded, separation)) return;
-  throw std::runtime_error(
-      fmt::format("{}: is for a minimum separation of {}, not {}; choose another folder",
-                  folder.string(), judge::to_text(recorded), judge::to_text(separation)));
 }
 
 std::vector<Written> write_families(const Arguments& arguments, Files& files) {

@@ -6,11 +6,9 @@
 #include <iterator>
 #include <utility>
 
-#include "touchstone/certificate_text.hpp"
 #include "touchstone/certified.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/printable.hpp"
-#include "verify/io/terminal.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
@@ -31,22 +29,6 @@ void append(std::vector<Thing>& all, std::vector<Thing>&& further) {
 }
 
 }  // namespace
-
-// ---- Certificates -------------------------------------------------------------------------------
-
-void close_certificates(Output& file, std::uint64_t certificates) {
-  if (io::interrupted()) {
-    file.close_incomplete();
-  } else {
-    file.complete(exact::certificates_closing_line(certificates));
-  }
-}
-
-void report_beyond_limits(const jobs::ProofCounts& counts) {
-  for (const std::string& reason : counts.beyond_limits) report_error(reason);
-}
-
-// ---- The page -----------------------------------------------------------------------------------
 
 void ViewFile::add(view::ViewedQuery query) {
   if (!output_) return;

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file
-/// The files of a command's results: a stream of certificates (--prove), and a page to look at
-/// (--view), as `touchstone view` writes it.
+/// The page to look at the results of a command (--view), as `touchstone view` writes it.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,18 +11,10 @@
 
 #include "fast/method.hpp"
 #include "verify/cli/files.hpp"
-#include "verify/jobs/prove.hpp"
 #include "verify/view/step_facts.hpp"
 #include "verify/view/viewed_query.hpp"
 
 namespace touchstone::verify::cli {
-
-/// Completes a stream of certificates of queries; one that lacks some, because the run was
-/// interrupted, as incomplete: without its closing line, so that the checker takes it for cut.
-void close_certificates(Output& file, std::uint64_t certificates);
-
-/// Reports on standard error the queries without a certificate, with the reasons.
-void report_beyond_limits(const jobs::ProofCounts& counts);
 
 /// A page of the first queries that a command found, if a file is named. A failure is reported
 /// once, as by Output.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -320,6 +321,9 @@ void write_results(Output& file, nlohmann::json results, const SourceArguments& 
   }
 }
 
+namespace {
+
+/// Adds up the results of all parts.
 Status merge_shards(const std::vector<fs::path>& parts, const std::string& json_file) {
   Files files;
   files.add_inputs(parts);
@@ -339,6 +343,31 @@ Status merge_shards(const std::vector<fs::path>& parts, const std::string& json_
     status = worse(status, Status::bad_input);
   }
   return files.has_failed() ? Status::bad_input : status;
+}
+
+}  // namespace
+
+void merge_command::add(Command& app, Status& status) {
+  struct Arguments {
+    std::vector<fs::path> parts;
+    std::string json_file;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  Command* command =
+      add_command(app, "merge", "Add up the results of all parts of a run (--shard)");
+  begin_group(*command, "Input");
+  add_option(*command, "parts", arguments->parts);
+  begin_group(*command, "Output");
+  add_option(*command, "--json", arguments->json_file);
+  set_help(*command,
+           "touchstone merge run/*.json   # of certify data --shard I/N --json run/I.json",
+           "The sum has no times and means. A part that is missing or there twice, and one of "
+           "another run, is an error that names it: version, options, the contents of files that "
+           "options name, and the names and sizes of all inputs must agree.\n" +
+               std::string(answering_statuses));
+  set_action(*command, [arguments, &status] {
+    status = merge_shards(arguments->parts, arguments->json_file);
+  });
 }
 
 }  // namespace touchstone::verify::cli

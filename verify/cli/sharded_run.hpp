@@ -11,11 +11,9 @@
 /// find mistakes, no forgeries. The JSON of a part that did not come to its end has another name,
 /// so that it cannot be taken for a whole one.
 
-#include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
@@ -33,11 +31,5 @@ void set_shard(const Command& command, const std::string& shard, SourceArguments
 /// \param is_complete false for a part that did not come to its end
 void write_results(Output& file, nlohmann::json results, const SourceArguments& sources,
                    const std::function<Status()>& status, bool is_complete);
-
-/// Adds up the results of all parts of a run, without times and means, and prints a summary.
-/// \param json_file for the sum; may be empty
-/// \throws std::runtime_error if they are not all parts of one run, each once.
-[[nodiscard]] Status merge_shards(const std::vector<std::filesystem::path>& parts,
-                                  const std::string& json_file);
 
 }  // namespace touchstone::verify::cli

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <set>
 #include <stdexcept>
@@ -11,7 +12,9 @@
 #include "touchstone/query.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/data/dataset.hpp"
+#include "verify/data/ground_truth_files.hpp"
 #include "verify/io/terminal.hpp"
+#include "verify/judge/separation_inference.hpp"
 #include "verify/mesh/groups.hpp"
 
 namespace touchstone::verify::cli {
@@ -138,6 +141,21 @@ Separation separation_for(const SourceArguments& arguments, const data::QuerySou
   } catch (const std::invalid_argument& error) {
     throw io::DatasetError(source.name(), {}, error.what());
   }
+}
+
+void require_same_separation(const fs::path& folder, const Separation& separation) {
+  const Separation recorded = data::recorded_separation(folder / "any");
+  const auto may_be_dataset = [](const fs::directory_entry& entry) {
+    const fs::path extension = entry.path().extension();
+    return entry.is_directory() || extension == ".csv" || extension == ".npy";
+  };
+  const bool is_free =
+      is_zero(recorded) &&
+      (!fs::exists(folder) || std::ranges::none_of(fs::directory_iterator(folder), may_be_dataset));
+  if (is_free || judge::same_separation(recorded, separation)) return;
+  throw std::runtime_error(
+      fmt::format("{}: is for a minimum separation of {}, not {}; choose another folder",
+                  folder.string(), judge::to_text(recorded), judge::to_text(separation)));
 }
 
 void for_each_source(const SourceArguments& arguments, Files& files,

@@ -97,6 +97,10 @@ struct SourceHandlers {
 [[nodiscard]] Separation separation_for(const SourceArguments& arguments,
                                         const data::QuerySource& source);
 
+/// \throws std::runtime_error if the folder, which queries are to be written to, has some for
+/// another separation.
+void require_same_separation(const std::filesystem::path& folder, const Separation& separation);
+
 /// Opens the sources in order and passes them on: the families of the built-in set (for the
 /// separation, if one is requested), or the dataset files of all paths, each once. Queries skipped
 /// with keep_going, and files that a search of folders skips, are reported on standard error. An

@@ -150,7 +150,7 @@ class StreamRun {
     sum_.interrupted = sum_.interrupted || io::interrupted();
     report_answers();
     solvers_.report_output(arguments_.solvers.show_output);
-    report_beyond_limits(sum_.proofs);
+    for (const std::string& reason : sum_.proofs.beyond_limits) report_error(reason);
     // Files first, so that they are complete even if standard output is closed.
     close_files();
     if (!is_without_queries()) print_summary();
@@ -282,7 +282,12 @@ class StreamRun {
     }
     truth_.close();
     answers_.close();
-    close_certificates(proof_, sum_.proofs.certificates());
+    // Without its closing line the checker takes it for cut.
+    if (io::interrupted()) {
+      proof_.close_incomplete();
+    } else {
+      proof_.complete(exact::certificates_closing_line(sum_.proofs.certificates()));
+    }
     write_results(
         json_, to_json(), arguments_.sources, [this] { return status(); },
         !sum_.interrupted && (sum_.errors == 0 || arguments_.sources.keep_going));
@@ -317,7 +322,8 @@ class StreamRun {
     if (judges()) {
       document = report::to_json(results_);
     } else {
-      document = proof_ ? jobs::to_json(sum_.proofs) : report::answers_to_json(sum_.methods.front());
+      document =
+          proof_ ? jobs::to_json(sum_.proofs) : report::answers_to_json(sum_.methods.front());
       if (proof_) {
         document["file_bytes"] = proof_.bytes();
         document["oracle_us_per_query"] = sum_.microseconds_per_query();
