@@ -35,10 +35,6 @@ enum class Column : std::uint64_t {
 };
 constexpr std::size_t most_columns = 8;
 
-/// The greatest size of a record of several lines: only long names with line ends make such
-/// records, and a stray quote is to be found before the end of the file.
-constexpr std::size_t longest_record = std::size_t{1} << 16U;
-
 using Fields = std::array<std::string, most_columns>;
 
 }  // namespace
@@ -104,23 +100,13 @@ class AnswersReader {
     if (io::trimmed(line->text).empty())
       fail(Column::whole_line, "blank line before the end of the file");
     split_ = io::split_csv(line->text, fields_);
-    if (split_.fault == io::CsvSplit::Fault::open_quote) continue_record(std::string(line->text));
+    if (split_.fault == io::CsvSplit::Fault::open_quote) {
+      fail(Column{split_.count}, "quoted field does not end");
+    }
     if (split_.fault == io::CsvSplit::Fault::text_after_quote) {
       fail(Column{split_.count}, "text after a quoted field");
     }
     return true;
-  }
-
-  /// Appends lines as long as a quoted field does not end.
-  void continue_record(std::string record) {
-    while (split_.fault == io::CsvSplit::Fault::open_quote) {
-      const std::optional<io::Line> line = lines_.next();
-      if (!line || record.size() + line->text.size() > longest_record) {
-        fail(Column{split_.count}, "quoted field does not end");
-      }
-      record.append("\n").append(line->text);
-      split_ = io::split_csv(record, fields_);
-    }
   }
 
   [[nodiscard]] bool is_header() const {

@@ -103,7 +103,7 @@ class RecordedAnswers {
 
 /// Reads a file of answers. The header must have these columns in this order, the last one or not;
 /// rows may come in any order, lines may end in LF or CRLF, and names (or any other field) may
-/// stand in quotes, where a line end counts as LF. Times of impact are finite decimal numbers or
+/// stand in quotes. Times of impact are finite decimal numbers or
 /// empty; their range is not checked here, but by the judge. A failure must agree with the verdict
 /// (verdict_of). Times with any other verdict than yes may be any number and are dropped: solvers
 /// write 1, infinity or the last step there. Tolerances are numbers from 0 on, or empty; one of

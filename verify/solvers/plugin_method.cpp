@@ -109,7 +109,7 @@ std::string read_name(const Library& library, const std::filesystem::path& path)
   if (text.empty() || !io::is_printable(text)) {
     throw io::DatasetError(path, {}, "name is not one line of text: " + io::quote(text));
   }
-  if (is_own_name(text)) {
+  if (find_info(text) != nullptr) {
     throw io::DatasetError(path, {}, fmt::format("name is that of a built-in solver: {}", text));
   }
   return std::string(text);

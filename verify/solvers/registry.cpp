@@ -1,6 +1,7 @@
 #include "verify/solvers/registry.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -44,15 +45,6 @@ const std::vector<std::unique_ptr<const fast::Method>>& methods() {
   return all;
 }
 
-std::string method_names() {
-  std::string names;
-  for (const auto& method : methods()) {
-    names += names.empty() ? "" : ", ";
-    names += method->name();
-  }
-  return names;
-}
-
 std::vector<std::string> default_methods(std::span<const Kind> kinds) {
   std::vector<std::string> names;
   for (const auto& method : methods()) {
@@ -65,28 +57,22 @@ std::vector<std::string> default_methods(std::span<const Kind> kinds) {
   return names;
 }
 
-namespace {
-
-Methods::const_iterator find(std::string_view name) {
-  return std::ranges::find_if(methods(),
-                              [&](const auto& method) { return method->name() == name; });
-}
-
-}  // namespace
-
 const fast::Method& find_method(std::string_view name) {
-  const auto found = find(name);
-  if (found != methods().end()) return **found;
+  std::vector<std::string_view> names;
+  for (const auto& method : methods()) {
+    if (method->name() == name) return *method;
+    names.push_back(method->name());
+  }
   throw std::invalid_argument(
-      fmt::format("no method is called {} (there are: {})", name, method_names()));
+      fmt::format("no method is called {} (there are: {})", name, fmt::join(names, ", ")));
 }
 
 const fast::MethodInfo* find_info(std::string_view name) {
-  const auto found = find(name);
-  return found == methods().end() ? nullptr : &(*found)->info();
+  for (const auto& method : methods()) {
+    if (method->name() == name) return &method->info();
+  }
+  return nullptr;
 }
-
-bool is_own_name(std::string_view name) { return find_info(name) != nullptr; }
 
 std::string_view to_string(fast::Promise promise) {
   switch (promise) {

@@ -18,9 +18,6 @@ namespace touchstone::verify::solvers {
 /// All of them, always in the same order; they live as long as the program.
 [[nodiscard]] const std::vector<std::unique_ptr<const fast::Method>>& methods();
 
-/// Their names, in their order, with commas.
-[[nodiscard]] std::string method_names();
-
 /// The names of those that are judged where the user names none: all that promise something, in
 /// their default setting, and answer one of the kinds, without the baselines.
 [[nodiscard]] std::vector<std::string> default_methods(std::span<const Kind> kinds = contact_kinds);
@@ -31,9 +28,6 @@ namespace touchstone::verify::solvers {
 
 /// The description of the method of that name; null if there is none.
 [[nodiscard]] const fast::MethodInfo* find_info(std::string_view name);
-
-/// True if a built-in solver has that name, or writes answers under it.
-[[nodiscard]] bool is_own_name(std::string_view name);
 
 /// "none", "conservative" or "exact".
 [[nodiscard]] std::string_view to_string(fast::Promise promise);

@@ -172,7 +172,7 @@ TEST(LoadAnswers, TakesAFileWithoutAnswers) { EXPECT_TRUE(load(header).groups().
 
 TEST(RecordedAnswers, SayWhatWasNeverAskedFor) {
   const RecordedAnswers answers = load(header +
-                                       "\"b\nc\",1,edge-edge,no,,,\n"
+                                       "\"b,c\",1,edge-edge,no,,,\n"
                                        "a,2,vertex-face,no,,,\n"
                                        "a,0,vertex-face,yes,0.25,,\n"
                                        "a,1,vertex-face,error,,,\n"
@@ -183,7 +183,7 @@ TEST(RecordedAnswers, SayWhatWasNeverAskedFor) {
     EXPECT_FALSE(answers.answer_to("a", vf, 9).has_value());
     EXPECT_FALSE(answers.answer_to("a", ee, 0).has_value());
     EXPECT_FALSE(answers.answer_to("", vf, 0).has_value());
-    EXPECT_EQ(answers.answer_to("b\nc", ee, 1)->answer.verdict, Verdict::no);
+    EXPECT_EQ(answers.answer_to("b,c", ee, 1)->answer.verdict, Verdict::no);
   }
   EXPECT_EQ(answers.unasked(), 3U);
 
@@ -195,9 +195,9 @@ TEST(RecordedAnswers, SayWhatWasNeverAskedFor) {
                     to_string(group.kind), group.answers, group.unasked, group.first_unasked_line);
   }
   EXPECT_EQ(text,
-            "a vertex-face: 3 answers, 2 unasked from line 6; "
-            "a edge-edge: 1 answers, 1 unasked from line 7; "
-            "b\\x0ac edge-edge: 1 answers, 0 unasked from line 0; ");
+            "a vertex-face: 3 answers, 2 unasked from line 5; "
+            "a edge-edge: 1 answers, 1 unasked from line 6; "
+            "b,c edge-edge: 1 answers, 0 unasked from line 0; ");
 }
 
 TEST(RecordedAnswers, MayBeAskedFromSeveralThreads) {

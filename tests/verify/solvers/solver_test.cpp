@@ -3,12 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <iostream>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -87,27 +85,6 @@ TEST(Solver, AnExceptionCostsOneQuery) {
 
 constexpr auto vf = Kind::vertex_face;
 
-/// The rest of their kind in their source is left out, and no other queries.
-TEST(Solver, LeavesOutQueriesBehindThreeHangsOfTheirSort) {
-  const FunctionMethod method([](Kind kind, const Query& query) {
-    for (; query.coordinates[0] >= 105.0;) std::this_thread::sleep_for(std::chrono::hours(1));
-    return echo(kind, query);
-  });
-  const auto solver = solver_in_children(method, {}, {.query_limit_seconds = 0.5});
-  const Outcome outcome = ask(*solver, 20);
-  ASSERT_EQ(outcome.reply.failures.size(), 3U);
-  for (std::size_t i = 0; i < 20; ++i) {
-    EXPECT_EQ(outcome.answers[i].verdict, i < 5 ? Verdict::yes : Verdict::undecided) << i;
-    const auto why = i < 8 ? std::nullopt : std::optional(judge::Unasked::left_out);
-    EXPECT_EQ(outcome.reply.why_unasked(i), why) << i;
-  }
-  EXPECT_FALSE(outcome.reply.stopped);
-  Numbered other(3);
-  other.source = "another";
-  std::vector<Answer> answers(3);
-  EXPECT_TRUE(solver->solve(other.request(), answers).unasked.empty());
-}
-
 TEST(HangLimits, ShrinkAfterThreeHangsAndEndTheirSort) {
   HangLimits limits(10.0);
   for (int hang = 0; hang < 6; ++hang) {
@@ -140,40 +117,6 @@ Queries numbered(const QueryShape& shape, std::vector<double>& numbers) {
     numbers[i + 1] = 100.0 + static_cast<double>(i / shape.numbers_of_query());
   }
   return {shape, numbers};
-}
-
-/// Terms are about shapes, too: a method of curves is not asked the lines, nor one of lines the
-/// curves, in this process and in children.
-TEST(Solver, AsksNoShapeOutsideTheTerms) {
-  const auto function = [](const Queries& one) -> Answer {
-    return {.verdict = Verdict::yes, .toi_lower = one.numbers[1]};
-  };
-  const FunctionMethod curves(function,
-                              {.name = "curves", .terms = {.straight = false, .most_degree = 2}}),
-      lines(function, {.name = "lines"});
-  constexpr QueryShape degree_2{.kind = vf, .degree = 2}, straight{.kind = vf};
-  for (const bool in_children : {false, true}) {
-    for (const QueryShape& shape : {degree_2, straight}) {
-      std::vector<double> numbers(3 * shape.numbers_of_query());
-      const SolveRequest request{.queries = numbered(shape, numbers)};
-      for (const FunctionMethod* method : {&curves, &lines}) {
-        const auto solver =
-            in_children ? solver_in_children(*method, {}, {}) : solver_in_process(*method, {});
-        std::vector<Answer> answers(3);
-        const SolveReply reply = solver->solve(request, answers);
-        const bool answered = (method == &lines) == shape.is_straight();
-        EXPECT_EQ(reply.unasked.size(), answered ? 0U : 3U);
-        for (std::size_t i = 0; i < 3; ++i) {
-          EXPECT_EQ(answers[i].verdict, answered ? Verdict::yes : Verdict::undecided);
-          if (answered) {
-            EXPECT_EQ(answers[i].toi_lower, 100.0 + static_cast<double>(i));
-          } else {
-            EXPECT_EQ(reply.why_unasked(i), judge::Unasked::outside);
-          }
-        }
-      }
-    }
-  }
 }
 
 TEST(Solver, RecordedAnswersAreLookedUpForAllShapesInDoubles) {
