@@ -33,7 +33,6 @@
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/judge/separation_inference.hpp"
 #include "verify/solvers/published.hpp"
 #include "verify/solvers/solver.hpp"
 #include "verify/view/query_files.hpp"
@@ -158,13 +157,13 @@ class FoundQueries {
   FoundQueries(Files& files, const Arguments& arguments, const Separation& separation)
       : all_files_(files),
         name_(arguments.out_file),
-        folder_(name_.parent_path()),
+        folder_(name_.has_parent_path() ? name_.parent_path() : "."),
         separation_(separation) {
     if (arguments.out_file.empty()) return;
     if (fs::path(arguments.out_file).extension() != ".csv") {
       throw std::runtime_error(arguments.out_file + ": the name must end in .csv");
     }
-    require_same_separation(arguments.out_file);
+    require_same_separation(folder_, separation_);
     for (const std::string& degree : arguments.degrees()) {
       for (const QueryShape& shape : arguments.shapes(degree)) (void)file_of(shape);
     }
@@ -185,7 +184,7 @@ class FoundQueries {
     }
     // The separation is written first: without it the labels would be about contact.
     if (!written.empty() && !is_zero(separation_)) {
-      data::write_separation(folder_.empty() ? "." : folder_, separation_);
+      data::write_separation(folder_, separation_);
     }
     for (File& file : files_) {
       if (file.queries != 0) file.writer.close();
@@ -209,25 +208,6 @@ class FoundQueries {
     if (found != files_.end()) return *found;
     all_files_.add_output(path);
     return files_.emplace_back(path);
-  }
-
-  /// \throws std::runtime_error if a folder has queries for another separation.
-  void require_same_separation(const fs::path& file) const {
-    const Separation recorded = data::recorded_separation(file);
-    if (judge::same_separation(recorded, separation_)) return;
-    if (is_zero(recorded) && is_without_datasets()) return;
-    throw std::runtime_error(
-        fmt::format("{}: its folder is for a minimum separation of {}, not {}; choose another",
-                    file.string(), judge::to_text(recorded), judge::to_text(separation_)));
-  }
-
-  [[nodiscard]] bool is_without_datasets() const {
-    const fs::path folder = folder_.empty() ? fs::path(".") : folder_;
-    if (!fs::exists(folder)) return true;
-    return std::ranges::none_of(fs::directory_iterator(folder), [](const auto& entry) {
-      const fs::path extension = entry.path().extension();
-      return entry.is_directory() || extension == ".csv" || extension == ".npy";
-    });
   }
 
   Files& all_files_;
@@ -266,7 +246,9 @@ class FuzzRun {
     options_.shapes = chosen_shapes();
     leave_out_others();
     options_.stop = &io::interrupted();
-    options_.on_progress = [this](const fuzz::FuzzProgress& progress) { show(progress); };
+    options_.on_progress = [this](double seconds, std::uint64_t queries) {
+      bar_.update(part_of_run(arguments_, seconds, queries));
+    };
     options_.on_finding = [this](const fuzz::Finding& finding) { add(finding); };
     asked_ = {.method = std::string(method_->name()),
               .plugin = plugin_ ? fs::absolute(arguments.solver.plugins.front()) : fs::path(),
@@ -382,10 +364,6 @@ class FuzzRun {
   }
 
   [[nodiscard]] std::FILE* out() const { return files_.summary_stream(); }
-
-  void show(const fuzz::FuzzProgress& progress) {
-    bar_.update(part_of_run(arguments_, progress.seconds, progress.queries));
-  }
 
   void add(const fuzz::Finding& finding) {
     if (finding.group == groups_) {

@@ -17,25 +17,7 @@ using draws::below;
 using draws::one_in;
 using generate::Random;
 
-using Vector = std::array<double, 3>;
-
-Vector operator+(const Vector& a, const Vector& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-Vector operator-(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Vector operator*(double factor, const Vector& a) {
-  return {factor * a[0], factor * a[1], factor * a[2]};
-}
-
-void put(Query& query, std::size_t end, std::size_t point, const Vector& place) {
-  for (std::size_t axis = 0; axis < 3; ++axis) query.at(end, point, axis) = place.at(axis);
-}
-
-Vector place_of(const Query& query, std::size_t end, std::size_t point) {
-  return {query.at(end, point, 0), query.at(end, point, 1), query.at(end, point, 2)};
-}
+using Vector = Eigen::Vector3d;
 
 /// The query under a random symmetry that keeps distances and the time.
 Query turned(Kind kind, const Query& query, Random& random) {
@@ -55,11 +37,11 @@ class Grid {
   Grid(Random& random, int bits) : random_(random), bound_(std::int64_t{1} << bits) {}
 
   [[nodiscard]] Vector draw() {
-    Vector vector{};
+    Vector vector = Vector::Zero();
     for (double& x : vector) {
       if (!one_in(random_, 24)) x = static_cast<double>(random_.between(-bound_, bound_));
     }
-    return one_in(random_, 24) ? Vector{} : vector;
+    return one_in(random_, 24) ? Vector(Vector::Zero()) : vector;
   }
 
  private:
@@ -79,7 +61,7 @@ std::array<Vector, moving_points> touching_points(Kind kind, Random& random) {
   const Vector p = places.draw(), a = shapes.draw(), b = shapes.draw();
   const std::int64_t i = random.between(0, m);
   const std::int64_t j = random.between(0, kind == Kind::vertex_face ? m - i : m);
-  const auto times = [](std::int64_t factor, const Vector& vector) {
+  const auto times = [](std::int64_t factor, const Vector& vector) -> Vector {
     return static_cast<double>(factor) * vector;
   };
   if (kind == Kind::vertex_face) {
@@ -195,7 +177,7 @@ Vector aim(Kind kind, const std::array<Vector, moving_points>& at_t, double u, d
 /// A vector with the separation's distance as its norm, up to rounding.
 Vector draw_offset(const Separation& separation, Random& random) {
   // (2,3,6) and (1,2,2) have lengths 7 and 3; (7,7,−2) has length 7 in L∞.
-  static constexpr std::array<Vector, 3> of_l2{{{2.0, 3.0, 6.0}, {1.0, 2.0, 2.0}, {0.0, 3.0, 4.0}}};
+  static const std::array<Vector, 3> of_l2{{{2.0, 3.0, 6.0}, {1.0, 2.0, 2.0}, {0.0, 3.0, 4.0}}};
   static constexpr std::array<double, 3> lengths{7.0, 3.0, 5.0};
   const double d = separation.distance;
   if (random.coin()) return {0.0, 0.0, random.coin() ? d : -d};
@@ -225,7 +207,7 @@ void rotate(Query& query, Random& random) {
   const std::array<Vector, 3> rotation = draw_rotation(random);
   for (std::size_t end = 0; end < 2; ++end) {
     for (std::size_t point = 0; point < moving_points; ++point) {
-      const Vector p = place_of(query, end, point);
+      const Vector p = point_of(query, end, point);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const Vector& row = rotation.at(axis);
         query.at(end, point, axis) = row[0] * p[0] + row[1] * p[1] + row[2] * p[2];
@@ -245,11 +227,11 @@ void put_sliding_vertex(Query& query, Random& random) {
   const double gap = draw_gap(random), end_gap = random.coin() ? gap : draw_gap(random);
   for (std::size_t end = 0; end < 2; ++end) {
     const double far = end == 0 ? -1.0 : 1.0;
-    put(query, end, 0,
-        {far * random.uniform(0.0, 6.0), random.uniform(-1.0, 1.0), end == 0 ? gap : end_gap});
-    put(query, end, 1, {random.uniform(-3.0, -1.0), random.uniform(-3.0, -1.0), 0.0});
-    put(query, end, 2, {random.uniform(1.0, 3.0), random.uniform(-3.0, -1.0), 0.0});
-    put(query, end, 3, {random.uniform(-1.0, 1.0), random.uniform(1.0, 3.0), 0.0});
+    point_of(query, end, 0) =
+        Vector{far * random.uniform(0.0, 6.0), random.uniform(-1.0, 1.0), end == 0 ? gap : end_gap};
+    point_of(query, end, 1) = Vector{random.uniform(-3.0, -1.0), random.uniform(-3.0, -1.0), 0.0};
+    point_of(query, end, 2) = Vector{random.uniform(1.0, 3.0), random.uniform(-3.0, -1.0), 0.0};
+    point_of(query, end, 3) = Vector{random.uniform(-1.0, 1.0), random.uniform(1.0, 3.0), 0.0};
   }
 }
 
@@ -259,15 +241,12 @@ void put_sliding_edges(Query& query, Random& random) {
   for (std::size_t end = 0; end < 2; ++end) {
     const double far = end == 0 ? -1.0 : 1.0;
     const double gap = draw_gap(random), travel = far * random.uniform(0.0, 4.0);
-    put(query, end, 0, {travel - 2.0, 0.0, gap});
-    put(query, end, 1, {travel + 2.0, slope, gap});
-    put(query, end, 2, {random.uniform(-3.0, -1.0), one_in(random, 2) ? 0.0 : slope, 0.0});
-    put(query, end, 3, {random.uniform(1.0, 3.0), 0.0, 0.0});
+    point_of(query, end, 0) = Vector{travel - 2.0, 0.0, gap};
+    point_of(query, end, 1) = Vector{travel + 2.0, slope, gap};
+    point_of(query, end, 2) =
+        Vector{random.uniform(-3.0, -1.0), one_in(random, 2) ? 0.0 : slope, 0.0};
+    point_of(query, end, 3) = Vector{random.uniform(1.0, 3.0), 0.0, 0.0};
   }
-}
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 /// Level primitives that come to the distance at an end, or stay there.
@@ -295,8 +274,8 @@ Query grid_contact(Kind kind, Random& random) {
   const auto velocities = draw_velocities(kind, random);
   Query query{};
   for (std::size_t point = 0; point < moving_points; ++point) {
-    put(query, 0, point, points.at(point) - n * velocities.at(point));
-    put(query, 1, point, points.at(point) + (denominator - n) * velocities.at(point));
+    point_of(query, 0, point) = points.at(point) - n * velocities.at(point);
+    point_of(query, 1, point) = points.at(point) + (denominator - n) * velocities.at(point);
   }
   const auto factor = [&random] {
     return draws::power_of_two(static_cast<int>(random.between(-50, 10)));
@@ -313,22 +292,22 @@ Query central_contact(Kind kind, Random& random) {
   const int bits = static_cast<int>(random.between(8, 19));
   Grid places(random, bits), shapes(random, bits);
   const Vector p = places.draw(), a = shapes.draw(), b = shapes.draw();
-  const Vector normal = draws::power_of_two(-bits) * cross(a, b);
+  const Vector normal = draws::power_of_two(-bits) * a.cross(b);
   const std::size_t end = below(random, 2);
   const double way = random.coin() ? 1.0 : -1.0;
   Query query{};
   for (std::size_t e = 0; e < 2; ++e) {
-    const Vector first = e == end ? p : p + way * normal;
+    const Vector first = e == end ? p : Vector(p + way * normal);
     if (kind == Kind::vertex_face) {
-      put(query, e, 0, first);
-      put(query, e, 1, p - a);
-      put(query, e, 2, p - b);
-      put(query, e, 3, p + (a + b));
+      point_of(query, e, 0) = first;
+      point_of(query, e, 1) = p - a;
+      point_of(query, e, 2) = p - b;
+      point_of(query, e, 3) = p + (a + b);
     } else {
-      put(query, e, 0, first - a);
-      put(query, e, 1, first + a);
-      put(query, e, 2, p - b);
-      put(query, e, 3, p + b);
+      point_of(query, e, 0) = first - a;
+      point_of(query, e, 1) = first + a;
+      point_of(query, e, 2) = p - b;
+      point_of(query, e, 3) = p + b;
     }
   }
   const double scale = draws::power_of_two(static_cast<int>(random.between(-50, 10)));
@@ -340,7 +319,7 @@ Query level_contact(Kind kind, Random& random) {
   Query query = draw_plan(kind, random);
   if (one_in(random, 6)) {
     for (std::size_t point = 0; point < moving_points; ++point) {
-      put(query, 1, point, place_of(query, 0, point));
+      point_of(query, 1, point) = point_of(query, 0, point);
     }
   }
   put_heights(kind, draw_heights(random), query);
@@ -358,10 +337,10 @@ Query rounded_contact(Kind kind, Random& random) {
   if (one_in(random, 8)) v = kind == Kind::vertex_face ? 1.0 - u : 1.0;
   std::array<Vector, moving_points> at_t{};
   for (std::size_t point = 1; point < moving_points; ++point) {
-    at_t.at(point) = linear(1.0 - t, place_of(query, 0, point), t, place_of(query, 1, point));
+    at_t.at(point) = linear(1.0 - t, point_of(query, 0, point), t, point_of(query, 1, point));
   }
   const Vector target = aim(kind, at_t, u, v);
-  put(query, 1, 0, (1.0 / t) * (target - (1.0 - t) * place_of(query, 0, 0)));
+  point_of(query, 1, 0) = (1.0 / t) * (target - (1.0 - t) * point_of(query, 0, 0));
   draws::multiply(query, draws::scales(random));
   return turned(kind, query, random);
 }
@@ -385,32 +364,31 @@ Query contact_apart(Kind kind, const Separation& separation, Random& random) {
   for (std::size_t end = 0; end < 2; ++end) {
     if (one_in(random, 3)) continue;
     for (std::size_t point = 0; point < second; ++point) {
-      put(moved, end, point, place_of(query, end, point) + offset);
+      point_of(moved, end, point) = point_of(query, end, point) + offset;
     }
   }
   return is_finite(moved) ? moved : query;
 }
 
 Query tilting(Kind kind, const Separation& separation, Random& random) {
-  using Eigen::Vector3d;
   // Sides of about 1 first, and a distance beside them.
   const int ratio = static_cast<int>(random.between(2, 40));
   const double distance = draws::power_of_two(-ratio);
-  const Vector3d p(1, 1, 1), q(1, -1, 0), normal = p.cross(q).normalized();
+  const Vector p(1, 1, 1), q(1, -1, 0), normal = p.cross(q).normalized();
   const double ends = random.uniform(5.0, 13.0) * distance,
                middle = random.uniform(0.2, 1.0) * ends;
   // det = r·(p × q), and p × q = (1, 1, −2) is 4 times as long as a shift along (1, 1, −1) uses of
   // it.
-  const Vector3d r = random.uniform(0.1, 0.45) * (p + q) + middle / 4.0 * Vector3d(1, 1, -1);
+  const Vector r = random.uniform(0.1, 0.45) * (p + q) + middle / 4.0 * Vector(1, 1, -1);
   // det grows by r·(a × b) from the middle to the ends, and not with the time itself.
-  const Vector3d along = 0.5 * r.cross(normal);
+  const Vector along = 0.5 * r.cross(normal);
   const double sign = r.dot((normal + along).cross(along - normal)) > 0.0 ? 1.0 : -1.0;
-  const Vector3d a = normal + sign * along, b = sign * along - normal;
+  const Vector a = normal + sign * along, b = sign * along - normal;
   const double turn = std::sqrt((ends - middle) / r.dot(a.cross(b)));
   Query query{};
   for (const std::size_t end : {0U, 1U}) {
     const double angle = end == 0 ? turn : -turn;
-    const Vector3d side_p = p + angle * a, side_q = q + angle * b;
+    const Vector side_p = p + angle * a, side_q = q + angle * b;
     point_of(query, end, 0) = r;
     if (kind == Kind::vertex_face) {
       point_of(query, end, 2) = side_p;

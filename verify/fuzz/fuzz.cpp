@@ -332,10 +332,7 @@ class FuzzRun {
     }
     if (end_.is_over() || is_stopped()) result_.unanswered = block_.size() - run.answered;
     judge(run);
-    if (options_.on_progress) {
-      options_.on_progress(
-          {.seconds = seconds(), .queries = result_.queries, .findings = result_.all_findings});
-    }
+    if (options_.on_progress) options_.on_progress(seconds(), result_.queries);
   }
 
   /// Judges the answers, all of them unless the run must end. Even if they come late, there is time
@@ -564,34 +561,6 @@ class FuzzRun {
   base::Deadline judging_end_;
 };
 
-void check(const FuzzOptions& options) {
-  // In this form NaN fails, too.
-  if (!(options.seconds >= 0.0) || !(options.shrink_seconds >= 0.0) ||
-      !(options.query_limit_seconds >= 0.0) || !std::isfinite(options.query_limit_seconds)) {
-    throw std::invalid_argument("fuzz: times must not be negative");
-  }
-  if (!(options.oracle_share >= 0.0 && options.oracle_share <= 1.0)) {
-    throw std::invalid_argument("fuzz: oracle_share must be in [0,1]");
-  }
-  if (options.method.t_max != 1.0) throw std::invalid_argument("fuzz: t_max must be 1");
-  if (options.shapes.empty()) throw std::invalid_argument("fuzz: no kind of queries");
-  if (!std::ranges::all_of(options.shapes, [](const QueryShape& shape) {
-        return shape.degree > 0 && shape.degree <= greatest_degree;
-      })) {
-    throw std::invalid_argument("fuzz: degrees must be from 1 to 8");
-  }
-  if (!is_valid(options.separation)) {
-    throw std::invalid_argument("fuzz: the separation must be finite and not negative");
-  }
-  if (!is_zero(options.separation)) {
-    for (const QueryShape& shape : options.shapes) require_contact(shape.kind);
-  }
-  if (options.seconds == 0.0 && options.most_queries == 0 && options.most_groups == 0 &&
-      options.stop == nullptr) {
-    throw std::invalid_argument("fuzz: the run needs a limit of time, queries or findings");
-  }
-}
-
 }  // namespace
 
 bool seeks(const FuzzOptions& options, judge::Fault what) {
@@ -626,7 +595,6 @@ double FuzzResult::judged_per_second() const {
 }
 
 FuzzResult fuzz(const fast::Method& method, const FuzzOptions& options) {
-  check(options);
   return FuzzRun(method, options).run();
 }
 

@@ -31,13 +31,6 @@
 
 namespace touchstone::verify::fuzz {
 
-/// Progress of a run.
-struct FuzzProgress {
-  double seconds = 0.0;       ///< wall clock
-  std::uint64_t queries = 0;  ///< asked
-  std::uint64_t findings = 0;
-};
-
 struct FuzzOptions {
   /// Wall-clock seconds, including all work on findings; 0: no limit. Answers given by then are
   /// judged for a second more.
@@ -73,8 +66,8 @@ struct FuzzOptions {
   /// Null, or a flag: once it is true, the run ends within a quarter of a second and the time of
   /// judging a few queries; some answers then remain unjudged.
   const std::atomic<bool>* stop = nullptr;
-  /// Called now and then.
-  std::function<void(const FuzzProgress&)> on_progress = nullptr;
+  /// Called now and then with the seconds of the run by the wall clock, and the queries asked.
+  std::function<void(double, std::uint64_t)> on_progress = nullptr;
   /// Called with every finding that is kept, when it is found, made simpler and in a group.
   std::function<void(const Finding&)> on_finding = nullptr;
   /// The clock of all times above but the query limit's.
@@ -141,9 +134,9 @@ struct FuzzResult {
 };
 
 /// Looks for wrong answers of the method until the clock, the number of queries, the number of
-/// findings or `stop` ends it; at least one of the first three must be given or `stop` not null.
-/// \throws std::invalid_argument for options out of range; std::system_error if no process can be
-/// made.
+/// findings or `stop` ends it. \pre one of these is given, and options are in their range
+/// \throws std::invalid_argument if the method answers none of the shapes; std::system_error if no
+/// process can be made.
 [[nodiscard]] FuzzResult fuzz(const fast::Method& method, const FuzzOptions& options);
 
 }  // namespace touchstone::verify::fuzz

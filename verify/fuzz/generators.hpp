@@ -74,8 +74,6 @@ class GeneratorContext {
 struct Generator {
   /// Unique, snake_case.
   std::string_view name;
-  /// A description of its queries.
-  std::string_view about;
   /// Generates a query of finite coordinates and positive weights: a function of the arguments
   /// alone. \pre a degree above 0
   AnyQuery (*make)(const QueryShape& shape, const GeneratorContext& context,

@@ -153,7 +153,7 @@ void simplify(const fast::Method& method, const FuzzOptions& options,
     finding.shrinking = must_end() ? Shrinking::cut_short : Shrinking::not_reproduced;
     return;
   }
-  static_cast<void>(shrink(finding.original.query, fails, {.must_end = must_end}));
+  static_cast<void>(shrink(finding.original.query, fails, must_end));
   finding.shrinking = must_end() ? Shrinking::cut_short : Shrinking::complete;
 }
 

@@ -80,12 +80,18 @@ std::vector<double> plainer_numbers(double magnitude) {
 
 // ---- The search ---------------------------------------------------------------------------------
 
+/// The maximum number of queries that are tested.
+constexpr std::uint64_t most_calls = 50'000;
+
 /// One run: the plainest query so far, and the steps from it.
 class Shrinker {
  public:
   Shrinker(const AnyQuery& query, const std::function<bool(const AnyQuery&)>& still_fails,
-           const ShrinkOptions& options)
-      : still_fails_(still_fails), options_(options), query_(query), plainness_(plainness(query)) {
+           const std::function<bool()>& must_end)
+      : still_fails_(still_fails),
+        must_end_(must_end),
+        query_(query),
+        plainness_(plainness(query)) {
     seen_.insert(hash_of(query));
   }
 
@@ -107,7 +113,7 @@ class Shrinker {
 
  private:
   [[nodiscard]] bool is_over() {
-    over_ = over_ || calls_ >= options_.most_calls || (options_.must_end && options_.must_end());
+    over_ = over_ || calls_ >= most_calls || must_end_();
     return over_;
   }
 
@@ -392,7 +398,7 @@ class Shrinker {
   }
 
   const std::function<bool(const AnyQuery&)>& still_fails_;
-  const ShrinkOptions& options_;
+  const std::function<bool()>& must_end_;
   AnyQuery query_;
   Plainness plainness_;
   /// Hashes of the queries tried. A query with the same hash as an earlier one is skipped.
@@ -404,8 +410,8 @@ class Shrinker {
 }  // namespace
 
 AnyQuery shrink(const AnyQuery& query, const std::function<bool(const AnyQuery&)>& still_fails,
-                const ShrinkOptions& options) {
-  return Shrinker(query, still_fails, options).run();
+                const std::function<bool()>& must_end) {
+  return Shrinker(query, still_fails, must_end).run();
 }
 
 }  // namespace touchstone::verify::fuzz

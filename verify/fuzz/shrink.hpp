@@ -22,27 +22,19 @@
 /// **Termination.** Each accepted step lowers the plainness, which is a tuple of natural numbers in
 /// lexicographic order.
 
-#include <cstdint>
 #include <functional>
 
 #include "verify/fuzz/plainness.hpp"
 
 namespace touchstone::verify::fuzz {
 
-struct ShrinkOptions {
-  /// The maximum number of calls of still_fails; 0: none.
-  std::uint64_t most_calls = 50'000;
-  /// Null, or a function: when it returns true, no further call begins.
-  std::function<bool()> must_end = nullptr;
-};
-
 /// The last of a chain of ever plainer queries for which `still_fails` holds; `query` itself if
-/// none is found. A function of the arguments alone, if still_fails is one and must_end does not
-/// end it. It never tests `query` itself, nor another one twice. \pre all numbers are finite and
-/// weights positive, as in all queries that it tests.
-/// \throws the exceptions of still_fails.
-[[nodiscard]] AnyQuery shrink(const AnyQuery& query,
-                              const std::function<bool(const AnyQuery&)>& still_fails,
-                              const ShrinkOptions& options = {});
+/// none is found. When must_end() is true, no further test begins. A function of the arguments
+/// alone, if still_fails is one and must_end does not end it. It never tests `query` itself, nor
+/// another one twice. \pre all numbers are finite and weights positive, as in all queries that it
+/// tests. \throws the exceptions of still_fails.
+[[nodiscard]] AnyQuery shrink(
+    const AnyQuery& query, const std::function<bool(const AnyQuery&)>& still_fails,
+    const std::function<bool()>& must_end = [] { return false; });
 
 }  // namespace touchstone::verify::fuzz

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <map>
 
@@ -55,42 +54,6 @@ TEST(Contact, IsContactAlways) {
   EXPECT_GT(full, tests::trials(1200));
   EXPECT_GT(count - anywhere[0.0] - anywhere[1.0], tests::trials(600));
   EXPECT_GT(anywhere[1.0], tests::trials(100));
-}
-
-/// A rounding decides, so that both verdicts are frequent.
-TEST(Contact, RoundedIsBarelyACollisionOrBarelyNot) {
-  int collisions = 0;
-  for_each_query(rounded_contact, tests::trials(800), [&](Kind kind, const Query& query) {
-    const bool collides = exact::decide(kind, query).collides();
-    collisions += collides ? 1 : 0;
-    if (collides) return;
-    double greatest = 0.0;
-    for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
-    const Separation near{.distance = 1e-13 * greatest, .norm = Norm::l2};
-    EXPECT_TRUE(exact::decide(kind, query, near).collides());
-  });
-  EXPECT_GT(collisions, tests::trials(200));
-  EXPECT_LT(collisions, tests::trials(760));
-}
-
-TEST(Contact, ApartIsAboutAtTheDistance) {
-  for (const Norm norm : {Norm::linf, Norm::l2}) {
-    for (const double distance : {1e-3, 0x1p-200, 1e300}) {
-      const Separation separation{.distance = distance, .norm = norm};
-      Random random(2);
-      int collisions = 0, near = 0;
-      const int count = tests::trials(400);
-      for (int i = 0; i < count; ++i) {
-        const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
-        const Query query = contact_apart(kind, separation, random);
-        for (const double x : query.coordinates) ASSERT_TRUE(std::isfinite(x));
-        collisions += exact::decide(kind, query, separation).collides() ? 1 : 0;
-        near += exact::decide(kind, query, {.distance = 1.01 * distance, .norm = norm}).collides();
-      }
-      EXPECT_GT(collisions, count / 2);
-      EXPECT_GT(near, collisions);
-    }
-  }
 }
 
 }  // namespace

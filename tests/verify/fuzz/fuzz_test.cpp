@@ -483,24 +483,6 @@ TEST(Fuzz, CountsTheTimeOfFindingsAsTheRuns) {
   EXPECT_LT(ends.at(3), 9.0);
 }
 
-TEST(Fuzz, RefusesOptionsThatMakeNoSense) {
-  const fast::Method& method = solvers::find_method("certified");
-  const auto refused = [&method](const FuzzOptions& options) {
-    EXPECT_THROW((void)fuzz(method, options), std::invalid_argument);
-  };
-  refused({});
-  refused({.seconds = -1.0});
-  refused({.seconds = std::nan("")});
-  refused({.most_queries = 1, .separation = {.distance = -1.0}});
-  refused({.most_queries = 1, .query_limit_seconds = -1.0});
-  refused({.most_queries = 1, .shrink_seconds = -1.0});
-  refused({.most_queries = 1, .shapes = {}});
-  refused({.most_queries = 1, .shapes = {{.degree = 0}}});
-  refused({.most_queries = 1, .shapes = {{.degree = 9}}});
-  refused({.most_queries = 1, .oracle_share = 1.5});
-  refused({.most_queries = 1, .separation = {.distance = 1.0}, .shapes = elements});
-}
-
 // ---- One finding: asking again ------------------------------------------------------------------
 
 /// An answer that is late by a tenth of the remaining time.
