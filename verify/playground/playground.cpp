@@ -50,16 +50,16 @@ std::optional<judge::GivenAnswer> answer_of(const fast::Method& method, const ba
   return given;
 }
 
-nlohmann::json facts_of(const base::AnyQuery& query, const Separation& separation, int parts) {
+nlohmann::json facts_of(const base::AnyQuery& query, const Separation& separation,
+                        bool has_answers) {
   std::vector<judge::GivenAnswer> answers;
-  if ((parts & 1) != 0) {
+  if (has_answers) {
     for (const auto& method : solvers::methods()) {
       if (auto given = answer_of(*method, query, separation)) answers.push_back(*std::move(given));
     }
   }
   return view::query_facts(
-      {.label = "", .query = query, .separation = separation, .with_approach = (parts & 2) != 0},
-      answers);
+      {.label = "", .query = query, .separation = separation, .with_approach = false}, answers);
 }
 
 nlohmann::json certified_answer(const base::AnyQuery& query, const Separation& separation) {
@@ -102,15 +102,14 @@ const char* said_of(int is_edge_edge, const double* coordinates, double distance
 
 extern "C" {
 
-/// The facts of a query as JSON. The oracle's are always among them.
-/// \param parts 1: answers of solvers; 2: the distance of queries without a collision, which takes
-/// longest; 3: both
+/// The facts of a query as JSON, but for the distance of one without a collision, which takes
+/// longest. \param has_answers with the answers of solvers, too
 EMSCRIPTEN_KEEPALIVE const char* touchstone_facts(int is_edge_edge, const double* coordinates,
-                                                  double distance, int is_l2, int parts) {
+                                                  double distance, int is_l2, int has_answers) {
   namespace playground = touchstone::verify::playground;
   return playground::said_of(is_edge_edge, coordinates, distance, is_l2,
                              [&](const auto& query, const auto& separation) {
-                               return playground::facts_of(query, separation, parts);
+                               return playground::facts_of(query, separation, has_answers != 0);
                              });
 }
 

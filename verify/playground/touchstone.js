@@ -32,7 +32,7 @@ async function openTouchstone() {
     return [isEdgeEdge, place, separation, norm === "l2" ? 1 : 0];
   };
   return {
-    facts: (query, parts) => said(code._touchstone_facts(...put(query), parts)),
+    facts: (query) => said(code._touchstone_facts(...put(query), 1)),
     decide(query) {
       const { truth, certificate } = said(code._touchstone_facts(...put(query), 0), (name, value) =>
         (["lower", "upper"].includes(name) ? doubleOfText(value) : value));

@@ -277,13 +277,10 @@ TEST_F(ViewBrowser, DrawsWhatIsPastedWithoutAVerdict) {
     ].map((words) => [paste(words), ...start()]);
     const list = (x) => `[${Array(24).fill(x).join(",")}]`;
     const faults = [
-      "1 2 3", "", "{\"kind\": \"edge-edge\"}", `1e400 0 0 ${rest}`,
-      "{\"findings\": []}", "{\"findings\": 5}", "[[{}]]", list("[[[[1]]]]"), "[".repeat(300000) + "]".repeat(300000),
-      `{"coordinates": ${list(1)}, "separation": {"min_separation": -1}}`,
-      `{"coordinates": ${list(1)}, "separation": {"min_separation": {}, "norm": "l2"}}`,
-      `{"coordinates": ${list("null")}}`, `{"coordinates": ${list('"<img src=x onerror=say(1)>"')}}`,
-      "<script>say(1)<\/script>", `NaN 0 0 ${rest}`, `1/0 0 0 ${rest}`, "1".repeat(900000) + "g", "0x" + "f".repeat(900000) + "g",
-      "/*".repeat(400000), "v " + "1".repeat(900000) + "x", "1 ".repeat(600000),
+      "1 2 3", "", `1e400 0 0 ${rest}`, "{\"coordinates\": [1]}", `{"coordinates": ${list("null")}}`,
+      `{"coordinates": ${list(1)}, "separation": {"min_separation": -1}}`, `NaN 0 0 ${rest}`, `1/0 0 0 ${rest}`,
+      "<img src=x onerror=say(1)><script>say(1)<\/script>", "1".repeat(900000) + "g", "0x" + "f".repeat(900000) + "g",
+      "/*".repeat(400000), "[".repeat(900000), "1 ".repeat(600000),
     ].map(paste);
     const images = all("main img").length;
     results.push([paste(`\u22120.5 0 1e\u22123 ${rest}`), ...start()]);
@@ -306,12 +303,10 @@ TEST_F(ViewBrowser, DrawsWhatIsPastedWithoutAVerdict) {
   }
   EXPECT_EQ(result.at("faults").at(0), "Not drawn: there are 3 numbers, not the 24 of a query.");
   EXPECT_EQ(result.at("faults").at(1), "Not drawn: there are 0 numbers, not the 24 of a query.");
-  EXPECT_EQ(result.at("faults").at(2), "Not drawn: the JSON has no list “coordinates”.");
-  EXPECT_EQ(result.at("faults").at(3), "Not drawn: “1e400” is no finite number.");
+  EXPECT_EQ(result.at("faults").at(2), "Not drawn: “1e400” is no finite number.");
   for (const nlohmann::json& fault : result.at("faults")) {
     const auto words = fault.get<std::string>();
     EXPECT_TRUE(words.starts_with("Not drawn: ")) << words;
-    EXPECT_EQ(words.find("Cannot read"), std::string::npos) << "the engine's words: " << words;
   }
   EXPECT_EQ(result.at("images"), 0);
   EXPECT_GT(result.at("drawn"), 500);
@@ -488,17 +483,14 @@ TEST_F(ViewBrowser, ShowsWhatIntersectsAtRest) {
 
 // ---- A page that decides ------------------------------------------------------------------------
 
-/// In the place of workers with the solvers in WebAssembly: what they are asked is kept. A query
-/// collides if its first point ends below 0; the distance of one that does not is never found.
-constexpr const char* fake_workers = R"(
-let ended = 0;
-const asked = [], measured = [];
+/// In the place of a worker with the solvers in WebAssembly: what it is asked is kept. A query
+/// collides if its first point ends below 0.
+constexpr const char* fake_worker = R"(
+const asked = [];
 class Worker {
   constructor() { setTimeout(() => this.onmessage({ data: {} })); }
-  terminate() { ended += 1; }
-  postMessage({ query, parts }) {
-    (parts === 1 ? asked : measured).push(query);
-    if (parts !== 1) return;
+  postMessage(query) {
+    asked.push(query);
     const { kind, coordinates, separation, norm } = query;
     const facts = { label: "", kind, coordinates: coordinates.map(String), min_separation: String(separation), norm, notes: [],
       approach: null, certificate: null, answers: [], truth: { collides: coordinates[14] < 0, text: "" } };
@@ -508,7 +500,7 @@ class Worker {
 )";
 
 /// A page that decides after each change, follows its address, and whose points can be dragged. Of
-/// changes that come faster than answers the last is asked; no distance keeps the page waiting.
+/// changes that come faster than answers the last is asked.
 TEST_F(ViewBrowser, DecidesAfterEachChange) {
   solvers_ = "// not read\n";
   const nlohmann::json result = result_on(
@@ -569,10 +561,9 @@ TEST_F(ViewBrowser, DecidesAfterEachChange) {
       await settled();
       if (asked.length > count) break;
     }
-    say({ edits, edited, pasted, separated, visited, start, dragged: last().coordinates, label: find("label").textContent,
-      ended });
+    say({ edits, edited, pasted, separated, visited, start, dragged: last().coordinates, label: find("label").textContent });
   })();)",
-      1200, fake_workers);
+      1200, fake_worker);
   EXPECT_EQ(
       result.at("edits"),
       nlohmann::json::array(
@@ -604,7 +595,6 @@ TEST_F(ViewBrowser, DecidesAfterEachChange) {
     EXPECT_TRUE(dragged.at(i) == start.at(i) || (12 <= i && i < 15)) << "one point moves: " << i;
   }
   EXPECT_EQ(result.at("label"), "your query");
-  EXPECT_GE(result.at("ended"), 3) << "another question ends the search for a distance";
 }
 
 }  // namespace

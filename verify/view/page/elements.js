@@ -12,3 +12,30 @@ export function make(tag, attributes = {}, ...children) {
 }
 
 export const find = (id) => document.getElementById(id);
+
+const seconds = 4;
+
+/// A position that runs to 1 in some seconds.
+export class Player {
+  /// \param position from 0 to 1, where it begins
+  /// \param show called with each position, and when it stops
+  constructor(position, show) {
+    this.position = position;
+    this.show = show;
+    this.isPlaying = false;
+  }
+
+  toggle() {
+    this.isPlaying = !this.isPlaying;
+    let [last, position] = [performance.now(), this.position()];
+    if (position >= 1) position = 0;
+    const tick = (now) => {
+      if (this.isPlaying) position = Math.min(1, position + (now - last) / (1000 * seconds));
+      last = now;
+      this.isPlaying = this.isPlaying && position < 1;
+      this.show(position);
+      if (this.isPlaying) requestAnimationFrame(tick);
+    };
+    tick(last);
+  }
+}

@@ -48,19 +48,6 @@ function doubles(texts) {
   });
 }
 
-function fromJson(text) {
-  const json = JSON.parse(text);
-  const isList = Array.isArray(json) && typeof json[0] === "object" && !Array.isArray(json[0]);
-  const one = (Array.isArray(json.findings) ? json.findings[0] : isList ? json[0] : json) || {};
-  const list = Array.isArray(one) ? one : one.coordinates;
-  if (!Array.isArray(list)) throw new Error("the JSON has no list “coordinates”");
-  const numbers = list.flat(2);
-  if (numbers.some((x) => typeof x === "object")) throw new Error("“coordinates” holds more than numbers");
-  const { min_separation: distance = 0, norm = "l2" } = one.separation || {};
-  return { kind: isKind(one.kind) ? one.kind : null, coordinates: doubles(numbers.map(String)),
-    ...separation(typeof distance === "object" ? "" : String(distance), norm) };
-}
-
 /// A minimum separation. \throws Error if it is none
 function separation(distance, norm) {
   const value = parseDouble(distance);
@@ -79,50 +66,34 @@ export function readLink(hash) {
   return { kind, coordinates: doubles(texts), ...separation(parts.get("d") || "0", parts.get("norm") || "l2") };
 }
 
-/// Rows of numbers with commas: x, y, z, or numerator and denominator of each, and optionally a
-/// label.
-function fromRows(lines) {
-  const fields = lines.map((line) => line.split(",").map((field) => field.replace(/"/g, "").trim()));
-  const width = fields[0].length;
-  if (![3, 4, 6, 7].includes(width) || fields.some((row) => row.length !== width)) return null;
-  const texts = fields.flatMap((row) => (width < 6 ? row.slice(0, 3)
-    : [0, 2, 4].map((i) => `${row[i]}/${row[i + 1]}`)));
-  return { coordinates: doubles(texts) };
-}
-
 const number = String.raw`[-+]?(?:0x[0-9a-f]*(?:\.[0-9a-f]*)?(?:p[-+]?\d+)?|(?:\d+(?:\.\d*)?|\.\d+)(?:e[-+]?\d+)?)`;
 /// Numbers and fractions that are not parts of names.
 const numberPattern = new RegExp(String.raw`(?<![\w.])${number}(?:/${number})?(?![\w.])`, "gi");
 
+/// Of eight rows of numbers with commas the coordinates: x, y, z, or numerator and denominator of each, without a label; null
+/// of other lines.
+function ofRows(lines) {
+  const rows = lines.map((line) => line.split(",").map((field) => field.replace(/"/g, "").trim()));
+  const width = rows.length === 8 ? rows[0].length : 0;
+  if (![3, 4, 6, 7].includes(width) || rows.some((row) => row.length !== width)) return null;
+  return rows.flatMap((row) => (width < 6 ? row.slice(0, 3) : [0, 2, 4].map((i) => `${row[i]}/${row[i + 1]}`)));
+}
+
 /// The limit for the length of a text with a query, whose numbers have a thousand digits at most.
 const longest = 1_000_000;
 
-/// The query in a text: { kind (null if unknown), coordinates, min_separation, norm }.
+/// The query in a text: { kind (null if unknown), coordinates, min_separation, norm }. Its numbers are those of the first
+/// "coordinates" of JSON, else those behind the first brace of code, else all but those of comments.
 /// \throws Error with the reason if there is none.
 export function readQuery(pasted) {
   if (pasted.length > longest) throw new Error("the text has more than a million characters");
   // The minus sign of typeset documents.
   const text = pasted.replace(/\u2212/g, "-");
-  const contact = { kind: kindOf(text), min_separation: 0, norm: "l2" };
-  if (/^\s*[[{]\s*["[{\d-]/.test(text) && /[\]}]\s*$/.test(text)) {
-    let query = null;
-    try {
-      query = fromJson(text);
-    } catch (error) {
-      if (!(error instanceof SyntaxError)) throw error;
-    }
-    if (query !== null) return { ...contact, ...query, kind: query.kind || contact.kind };
-  }
-  const code = text.replace(/\/\/.*|\/\*[^]*?(?:\*\/|$)/g, "");
-  const lines = code.split("\n").map((line) => line.trim()).filter((line) => line !== "");
-  const vertices = lines.filter((line) => /^v\s/.test(line));
-  if (vertices.length > 0) {
-    return { ...contact, coordinates: doubles(vertices.flatMap((line) => line.split(/\s+/).slice(1, 4))) };
-  }
-  const data = lines.filter((line) => /^[-+.\d"]/.test(line));
-  const query = data.length === 8 && lines.length <= 9 ? fromRows(data) : null;
-  if (query !== null) return { ...contact, ...query };
-  const start = code.indexOf("{");
-  return { ...contact, coordinates: doubles((start < 0 ? code : code.slice(start)).match(numberPattern) || []) };
+  const member = (name, otherwise) => (new RegExp(`"${name}"\\s*:\\s*"?([^\\s",}]+)`).exec(text) || [null, otherwise])[1];
+  const found = { kind: kindOf(text), ...separation(member("min_separation", "0"), member("norm", "l2")) };
+  const json = /"coordinates"\s*:([^:}]*)/.exec(text);
+  const code = text.replace(/\/\/.*|#.*|\/\*[^]*?(?:\*\/|$)/g, "");
+  const rows = ofRows(code.split("\n").filter((line) => /^\s*[-+.\d"]/.test(line)));
+  const numbers = json ? json[1] : code.slice(Math.max(code.indexOf("{"), 0));
+  return { ...found, coordinates: doubles(rows || numbers.match(numberPattern) || []) };
 }
-

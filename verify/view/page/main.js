@@ -1,11 +1,11 @@
 // The page: a list of queries, of which one is shown.
 
 import { add, compare, doubleText, hexadecimalText, log2, nearest, one, parseDouble, rational, rationalText, shortText, zero } from "./exact.js";
-import { find, make } from "./elements.js";
+import { find, make, Player } from "./elements.js";
 import { isCurved, momentText, placeText, readFacts, verdictText, withoutAnswer } from "./facts.js";
 import { linkOf, readLink, readQuery, writers } from "./formats.js";
 import { worldOf } from "./frame.js";
-import { answersOfSolvers, isLive, nearestApproach, startSolvers } from "./live.js";
+import { isLive, startSolvers } from "./live.js";
 import { Look, steps } from "./look.js";
 import { axes, directionOf } from "./motion.js";
 import { CornerPicture, MotionPicture } from "./pictures.js";
@@ -14,9 +14,6 @@ import { queryOf, readStep, StepPart } from "./step.js";
 import { drawTimeline } from "./timeline.js";
 
 const zoomSteps = 1000;
-const secondsOfPlay = 4;
-/// In ms.
-const pauseBeforeApproach = 150;
 /// log2 of the smallest visible gap, in units of the radius.
 const lgSmallest = -5;
 
@@ -26,9 +23,8 @@ const step = find("step_facts") ? readStep(JSON.parse(find("step_facts").textCon
 const viewpoint = new Viewpoint(step ? 1 : 2);
 let look = null;
 let pictures = [];
-let isPlaying = false;
-/// Decides a query in this page, and finds the least distance of one that is free; null as long as it cannot.
-let decide = null, measure = null;
+/// Decides a query in this page; null as long as it cannot.
+let decide = null;
 /// What the user asks for: its number, of which the newest is shown, and the query, as long as it is not shown.
 let turn = 0, wanted = null;
 /// The number of the query that the user made.
@@ -55,9 +51,15 @@ function radios(name, values, chosen, change) {
     make("input", { type: "radio", name, value, checked: value === chosen, onchange: () => change(value) }), value));
 }
 
+function choose(name, value) {
+  for (const radio of document.getElementsByName(name)) radio.checked = radio.value === value;
+}
+
+const chosen = (name) => document.querySelector(`input[name=${name}]:checked`).value;
+
 function controls() {
   return make("div", { class: "controls" },
-    button("play", "Play", "Space", togglePlay),
+    button("play", "Play", "Space", () => player.toggle()),
     button("star", "To contact", "c", goToStar),
     make("label", { class: "wide" }, "Zoom ",
       make("input", { type: "range", id: "zoom", min: 0, max: zoomSteps, value: 0,
@@ -124,7 +126,7 @@ function page() {
       make("h2", {}, "Copy and paste"),
       make("p", {}, "Text of another query (C++, rows of CSV, JSON, OBJ v lines, or 24 numbers), pasted here, is drawn."),
       make("div", { class: "choice" },
-        ...Object.keys(writers).map((name) => button(copyId(name), `Copy as ${name}`, "", () => copy(name))),
+        ...Object.keys(writers).map((name) => button(copyId(name), `Copy as ${name}`, "", () => copyText(writers[name](look.facts)))),
         button("copy_certificate", "Copy the certificate", "For touchstone-check", () => copyText(look.facts.certificate.text))),
       make("textarea", { id: "text", rows: 10, spellcheck: "false", "aria-label": "A query as text",
         onpaste: () => setTimeout(draw) }),
@@ -145,7 +147,7 @@ const shortName = (facts) => (facts.label.startsWith(commonFolder) ? facts.label
 // ---- The query that is shown --------------------------------------------------------------------
 
 function show(index) {
-  isPlaying = false;
+  player.isPlaying = false;
   turn += 1;
   wanted = null;
   look = new Look(queries[index]);
@@ -220,7 +222,7 @@ function update(isNewFrame) {
   find("now").textContent = look.timeText(t, 17);
   find("zoom").value = Math.round(look.zoom * zoomSteps);
   find("follow").checked = look.isFollowing;
-  find("play").textContent = isPlaying ? "Stop" : "Play";
+  find("play").textContent = player.isPlaying ? "Stop" : "Play";
   find("scale").textContent = `Radius seen: ${scaleText(frame.lgRadius)} (corners ${scaleText(cornerFrame.lgRadius)}), ` +
     `times from ${look.timeText(window.from, 6)} to ${look.timeText(window.to, 6)}.`;
   drawTimeline(find("rows"), facts, window, t);
@@ -288,18 +290,18 @@ function writeTable(state = look.motion.at(look.t)) {
 
 // ---- Copy and paste -----------------------------------------------------------------------------
 
-function copy(name) {
-  if (look !== null) copyText(writers[name](look.facts));
+/// \param where the text is if there is no clipboard
+function toClipboard(text, said, where) {
+  said.textContent = where;
+  if (navigator.clipboard) navigator.clipboard.writeText(text).then(() => { said.textContent = "Copied."; }, () => {});
 }
 
 function copyText(text) {
   const area = find("text");
   area.value = text;
   area.select();
-  for (const radio of document.getElementsByName("kind")) radio.checked = radio.value === look.facts.kind;
-  const said = find("drawn");
-  said.textContent = "The text is here.";
-  if (navigator.clipboard) navigator.clipboard.writeText(area.value).then(() => { said.textContent = "Copied."; }, () => {});
+  choose("kind", look.facts.kind);
+  toClipboard(text, find("drawn"), "The text is here.");
 }
 
 const isSame = (a, b) => !isCurved(a) && !isCurved(b) && a.kind === b.kind && a.min_separation === b.min_separation &&
@@ -317,8 +319,7 @@ function draw() {
   const fail = (error) => { said.textContent = `Not drawn: ${error.message}.`; };
   try {
     const read = readQuery(find("text").value);
-    const kind = read.kind || document.querySelector("input[name=kind]:checked").value;
-    decided({ ...read, kind }, "pasted", (facts) => {
+    decided({ ...read, kind: read.kind || chosen("kind") }, "pasted", (facts) => {
       show(indexOf(facts));
       rememberLink();
       said.textContent = decide ? "Decided." : look.facts.truth ? "This page holds its answer." : "Drawn. This page holds no answer to it.";
@@ -331,8 +332,7 @@ function draw() {
 
 // ---- Another query, on a page that decides it ---------------------------------------------------
 
-/// Calls found with the query and its answers, if this page decides; the distance of one that is free follows. Calls nothing if
-/// the user asks for another one before.
+/// Calls found with the query and its answers, if this page decides. Calls nothing if the user asks for another one before.
 function decided(query, label, found, failed = (error) => { throw error; }) {
   if (decide === null) {
     found(withoutAnswer(query, label));
@@ -345,22 +345,12 @@ function decided(query, label, found, failed = (error) => { throw error; }) {
     wanted = null;
     call(result);
   };
-  decide({ ...query, label }).then(ifNewest((facts) => {
-    found(facts);
-    if (!facts.truth.collides) setTimeout(addApproach, pauseBeforeApproach, facts);
-  }), ifNewest(failed));
-}
-
-/// The least distance of a query that is shown for a while.
-async function addApproach(facts) {
-  if (look.facts !== facts) return;
-  facts.approach = (await measure(facts)).approach;
-  if (look.facts === facts) update(false);
+  decide({ ...query, label }).then(ifNewest(found), ifNewest(failed));
 }
 
 function writeEditor({ kind, min_separation, norm }) {
-  for (const radio of document.getElementsByName("asked_kind")) radio.checked = radio.value === kind;
-  for (const radio of document.getElementsByName("asked_norm")) radio.checked = radio.value === norm;
+  choose("asked_kind", kind);
+  choose("asked_norm", norm);
   find("distance").value = String(min_separation);
   find("linked").textContent = "";
 }
@@ -389,8 +379,7 @@ function edit(change, isKept = false, shown = () => {}) {
 
 function changeSeparation() {
   const min_separation = parseDouble(find("distance").value);
-  const chosen = document.querySelector("input[name=asked_norm]:checked");
-  if (min_separation >= 0) edit({ min_separation, norm: chosen.value });
+  if (min_separation >= 0) edit({ min_separation, norm: chosen("asked_norm") });
   else find("distance").value = String(look.facts.min_separation);
 }
 
@@ -405,7 +394,7 @@ function typeCoordinate(at, input) {
 const drag = {
   begin() {
     if (decide === null || isCurved(look.facts) || !find("move").checked) return false;
-    isPlaying = false;
+    player.isPlaying = false;
     const end = compare(add(look.t, look.t), one) < 0 ? zero : one;
     look.window = { from: zero, to: one };
     look.t = end;
@@ -431,10 +420,8 @@ const drag = {
 const rememberLink = () => decide && history.replaceState(null, "", linkOf(look.facts));
 
 function copyLink() {
-  const said = find("linked");
   rememberLink();
-  said.textContent = "The link is in the address bar.";
-  if (navigator.clipboard) navigator.clipboard.writeText(location.href).then(() => { said.textContent = "Copied."; }, () => {});
+  toClipboard(location.href, find("linked"), "The link is in the address bar.");
 }
 
 /// Shows the query of the address. Returns whether there is one.
@@ -457,8 +444,7 @@ function openLink() {
 
 async function goLive() {
   try {
-    measure = await startSolvers(nearestApproach, true);
-    decide = await startSolvers(answersOfSolvers);
+    decide = await startSolvers();
   } catch (error) {
     find("nothing").textContent = `This browser cannot decide queries: ${error.message}.`;
     find("nothing").hidden = false;
@@ -479,25 +465,10 @@ function goToStar() {
   update(look.isFollowing);
 }
 
-function togglePlay() {
-  isPlaying = !isPlaying;
-  let last = performance.now();
-  let position = look.step >= steps ? 0 : look.step;
-  const tick = (now) => {
-    if (!isPlaying) return;
-    position += ((now - last) * steps) / (1000 * secondsOfPlay);
-    last = now;
-    if (position >= steps) {
-      isPlaying = false;
-      position = steps;
-    }
-    look.setStep(Math.round(position));
-    update(look.isFollowing);
-    if (isPlaying) requestAnimationFrame(tick);
-  };
-  if (isPlaying) requestAnimationFrame(tick);
-  update(false);
-}
+const player = new Player(() => look.step / steps, (position) => {
+  look.setStep(Math.round(position * steps));
+  update(look.isFollowing);
+});
 
 function moveTime(by) {
   look.setStep(Math.max(0, Math.min(steps, look.step + by)));
@@ -505,7 +476,7 @@ function moveTime(by) {
 }
 
 const keys = {
-  " ": togglePlay,
+  " ": () => player.toggle(),
   c: goToStar,
   0: () => zoomTo(0),
   z: () => zoomTo(1),

@@ -6,7 +6,7 @@
 // rounded to float relative to the mesh's box; a shown pair is a query of the exact doubles.
 
 import * as THREE from "three";
-import { make, find } from "./elements.js";
+import { find, make, Player } from "./elements.js";
 import { doubleText } from "./exact.js";
 import { looks, outline, sides } from "./pictures.js";
 import { Scene, styleColor } from "./scene.js";
@@ -260,15 +260,9 @@ export class StepPicture {
     return [0, 1, 2].map((k) => places[3 * n + k]);
   }
 
-  /// Moves the place of a collision to the centre.
-  goTo(n) {
-    this.focus = this.contactPlace(n);
-    this.place();
-  }
-
   /// Enlarges a pair, its place in the centre, until it fills the picture.
   fit(n) {
-    this.goTo(n);
+    this.focus = this.contactPlace(n);
     const corners = this.step.pairs[n].elements.flat().map((i) => this.vertex(i, this.step.pairs[n].toi[0]));
     const reach = Math.max(...corners.map((corner) => Math.hypot(...corner.map((x, k) => x - this.focus[k]))));
     this.scale = Math.max(1, Math.min(mostScale, 0.6 / reach));
@@ -293,6 +287,7 @@ export class StepPart {
     // The shown pair, initially the first.
     this.chosen = step.pairs.length > 0 ? 0 : null;
     this.show = show;
+    this.player = new Player(() => this.t, (t) => this.setTime(t));
     find("step").append(...this.parts());
     if (canDraw) {
       const figure = find("mesh");
@@ -331,11 +326,10 @@ export class StepPart {
               make("span", {}, pair.name), step.isAtRest ? ` ${pair.kind}` : ` t ≈ ${doubleText(Number(pair.toi[0].toPrecision(6)))}`)))),
           step.total > listed ? make("p", {}, `and ${step.total - listed} more`) : null)),
       make("div", { class: "controls" },
-        make("button", { type: "button", id: "step_play", hidden: step.isAtRest, onclick: () => this.togglePlay() }, "Play"),
+        make("button", { type: "button", id: "step_play", hidden: step.isAtRest, onclick: () => this.player.toggle() }, "Play"),
         make("label", { class: "wide", hidden: step.isAtRest }, "time t", make("input", { type: "range", id: "step_time", min: 0, max: steps,
           oninput: (event) => this.setTime(event.target.valueAsNumber / steps) })),
         make("output", { id: "step_now" }),
-        make("button", { type: "button", id: "step_near", disabled: step.pairs.length === 0, onclick: () => this.goNear() }, "To the pair"),
         make("button", { type: "button", id: "step_all", onclick: () => {
           if (this.picture) this.picture.all();
           this.update();
@@ -364,6 +358,7 @@ export class StepPart {
     const { collidedSoFar } = this;
     if (this.picture) this.picture.draw(this.t, collidedSoFar, this.chosen);
     find("step_time").value = Math.round(this.t * steps);
+    find("step_play").textContent = this.player.isPlaying ? "Stop" : "Play";
     const { pairs, total } = this.step;
     const all = total > pairs.length ? `the first ${pairs.length}` : String(total);
     find("step_now").textContent = this.step.isAtRest ? this.placeText() : `t = ${doubleText(this.t)}, ${collidedSoFar} of ${all} have collided`;
@@ -383,34 +378,8 @@ export class StepPart {
 
   choose(n) {
     this.chosen = n;
-    if (this.picture) {
-      if (this.step.isAtRest) this.picture.fit(n);
-      else this.picture.goTo(n);
-    }
+    if (this.picture) this.picture.fit(n);
     this.setTime(this.step.pairs[n].toi[1]);
     this.show(n);
-  }
-
-  goNear() {
-    if (this.picture) {
-      this.picture.fit(this.chosen);
-    }
-    this.update();
-  }
-
-  togglePlay() {
-    this.isPlaying = !this.isPlaying;
-    find("step_play").textContent = this.isPlaying ? "Stop" : "Play";
-    let last = performance.now();
-    if (this.isPlaying && this.t >= 1) this.t = 0;
-    const tick = (now) => {
-      if (!this.isPlaying) return;
-      const t = Math.min(1, this.t + (now - last) / 4000);
-      last = now;
-      if (t >= 1) this.togglePlay();
-      this.setTime(t);
-      requestAnimationFrame(tick);
-    };
-    requestAnimationFrame(tick);
   }
 }
