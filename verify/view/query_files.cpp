@@ -18,7 +18,6 @@
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 #include "verify/io/json.hpp"
-#include "verify/io/obj_statements.hpp"
 #include "verify/jobs/prove.hpp"
 #include "verify/view/query_facts.hpp"
 
@@ -255,30 +254,6 @@ std::vector<ViewedQuery> read_certificates(const fs::path& path, const QueryFile
   return selection.take(path, index);
 }
 
-// ---- Points -------------------------------------------------------------------------------------
-
-std::vector<ViewedQuery> read_obj(const fs::path& path, const QueryFileOptions& options) {
-  io::ObjStatements statements(path);
-  std::string numbers;
-  while (const auto statement = statements.next()) {
-    if (statement->keyword != "v") continue;
-    numbers.append(statement->words).append("\n");
-    if (numbers.size() > io::LineReader::longest_line) {
-      throw io::DatasetError(path, {}, "a query has eight lines of vertices");
-    }
-  }
-  Selection selection(options);
-  try {
-    if (selection.wants(0)) {
-      const Kind kind = options.kind ? *options.kind : data::kind_from_path(path);
-      selection.add({.label = path.string(), .query = base::AnyQuery(kind, parse_points(numbers))});
-    }
-  } catch (const std::invalid_argument& error) {
-    throw io::DatasetError(path, {}, error.what());
-  }
-  return selection.take(path, 1);
-}
-
 double parse_hexadecimal(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
@@ -345,7 +320,6 @@ std::vector<ViewedQuery> read_queries(const fs::path& path, const QueryFileOptio
   if (extension == ".json") return read_json(path, options);
   const bool is_compressed = extension == ".zst" && path.stem().extension() == ".cert";
   if (extension == ".cert" || is_compressed) return read_certificates(path, options);
-  if (extension == ".obj") return read_obj(path, options);
   return read_dataset(path, options);
 }
 

@@ -4,13 +4,12 @@
 /// Queries for a view, from files: rows of datasets, findings of the fuzzer, certificates,
 /// and the points of one query.
 ///
-///   - .csv, .npy: a dataset (verify/data/dataset.hpp);
+///   - .csv, .npy, .obj: a dataset (verify/data/dataset.hpp);
 ///   - .json: the report of `fuzz --json`, whose findings are read, or one of them, or the JSON
 ///     that a view copies: an object of `coordinates`, 24 numbers or texts of numbers, `kind`, and
 ///     optionally `separation`, `label` and `note`; on curves, `control` and `weights` in place of
 ///     the coordinates (verify/view/query_facts.hpp); or a list of such objects;
-///   - .cert, .cert.zst: a stream of certificates of queries (exact/CERTIFICATES.md);
-///   - .obj: eight lines `v x y z`, as ipc-toolkit writes a query, without the kind.
+///   - .cert, .cert.zst: a stream of certificates of queries (exact/CERTIFICATES.md).
 
 #include <cstddef>
 #include <cstdint>

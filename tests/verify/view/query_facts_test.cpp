@@ -7,10 +7,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <limits>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -22,16 +19,12 @@
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
-#include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/mesh.hpp"
-#include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
-#include "verify/data/csv_dataset.hpp"
 #include "verify/io/compressor.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/mesh/mesh_file.hpp"
-#include "verify/solvers/registry.hpp"
 #include "verify/view/asked_solvers.hpp"
 #include "verify/view/query_files.hpp"
 #include "verify/view/step_facts.hpp"
@@ -58,18 +51,6 @@ TEST(QueryFacts, TextsArePrintable) {
 }
 
 // ---- The nearest approach -------------------------------------------------------------------------
-
-/// Two edges that pass each other, one at height 3: their distance is least while they cross in
-/// projection.
-TEST(NearestApproach, IsTheFirstTimeOfTheLeastDistance) {
-  const PosedQuery passing = tests::edge_edge({-1, 0, 3, 1, 0, 3, 0, 3, 0, 0, 5, 0},
-                                              {-1, 0, 3, 1, 0, 3, 0, -5, 0, 0, -3, 0});
-  const auto approach = nearest_approach(passing.kind, passing.query);
-  ASSERT_TRUE(approach);
-  EXPECT_EQ(approach->at_most, 3.0);
-  // The nearer end is at y = 3 - 8t, 0 at t = 3/8.
-  EXPECT_EQ(approach->time, exact::AlgebraicNumber(exact::Rational(3, 8)));
-}
 
 TEST(NearestApproach, AgreesWithTheOracleOnBothSides) {
   tests::Random random(20261123);
@@ -107,34 +88,12 @@ ViewedQuery resting() {
   return {.label = "a label", .query = base::AnyQuery(Kind::vertex_face, query)};
 }
 
-/// What these methods say.
-Replies ask_methods(const std::vector<std::string>& names, const ViewedQuery& query) {
-  std::vector<std::unique_ptr<solvers::Solver>> made;
-  std::vector<const solvers::Solver*> asked;
-  for (const std::string& name : names) {
-    made.push_back(solvers::solver_in_process(solvers::find_method(name), {.tolerance = 1e-3}));
-    asked.push_back(made.back().get());
-  }
-  return ask(asked, query);
-}
-
 /// A vertex falls to a triangle at rest and through it, on a curve through these heights.
 OwnCurves on_curves(const std::vector<double>& heights) {
   OwnCurves own{.curves = {{{}, {.control = {{0, 0, 0}}}, {.control = {{4, 0, 0}}}, {}}}};
   for (const double z : heights) own.curves[0].control.push_back({1, 1, z});
   own.curves[3].control = {{0, 4, 0}, {0, 4, 0}, {0, 4, 0}};
   return own;
-}
-
-TEST(Ask, CurvesOfDegreeOneAsStraightLines) {
-  OwnCurves lines = on_curves({1, -1});
-  lines.curves[3] = {.control = {{0, 4, 0}}};
-  const Replies replies =
-      ask_methods({"certified", "tight_inclusion", "accd"}, {.label = "lines", .query = lines});
-  ASSERT_EQ(replies.answers.size(), 3U);
-  for (const judge::GivenAnswer& given : replies.answers) {
-    EXPECT_EQ(given.answer.verdict, fast::Verdict::yes) << given.solver;
-  }
 }
 
 /// A method of these terms that is never asked.
@@ -179,23 +138,6 @@ TEST(Ask, NotesSayWhoIsNotAskedAndWhy) {
 
 // ---- Steps --------------------------------------------------------------------------------------
 
-/// A triangle at rest, two vertices that fall through it at t = 1/4 and t = 1/2, and an edge far
-/// away.
-mesh::Mesh scene() {
-  const std::vector<std::array<double, 3>> coordinates{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 2},
-                                                       {1, 2, 1}, {9, 9, 9}, {9, 9, 8}};
-  mesh::Mesh result = mesh::make_mesh(coordinates, {{0, 1, 2}}, std::vector<fast::Edge>{{6, 5}});
-  result.points = {3, 4};
-  return result;
-}
-
-mesh::Vertices after(const mesh::Mesh& mesh) {
-  mesh::Vertices vertices = mesh.vertices;
-  vertices(3, 2) = -2;
-  vertices(4, 2) = -3;
-  return vertices;
-}
-
 /// The points of a pair are those of its query.
 TEST(StepFacts, EveryKindOfPairByItsPoints) {
   // Edge 0-1 and point 4 pass down through edge 2-3, and point 6 through point 5.
@@ -218,34 +160,10 @@ TEST(StepFacts, EveryKindOfPairByItsPoints) {
   }
 }
 
-TEST(StepFacts, OfTheStepThatIsTaken) {
-  const mesh::Mesh mesh = scene();
-  const ViewedStep taken = find_collisions("a step", mesh, mesh.vertices, after(mesh), {}, 0.25);
-  ASSERT_EQ(taken.collisions.size(), 1U) << "the other point falls through at t = 1/2";
-  EXPECT_EQ(taken.after(4, 2), 0.0);
-  EXPECT_EQ(taken.after(3, 2), 1.0);
-  EXPECT_EQ(straight_of(first_queries(taken, 1)[0])->at(1, 0, 2), 0.0);
-}
-
-TEST(StepFacts, AtASeparation) {
-  const mesh::Mesh mesh = scene();
-  const ViewedStep near =
-      find_collisions("a step", mesh, mesh.vertices, mesh.vertices,
-                      {.solve = {.separation = {.distance = 1.0, .norm = Norm::l2}}});
-  ASSERT_EQ(near.collisions.size(), 1U) << "one point is 1 above the triangle, the other 2";
-  EXPECT_EQ(near.points[0], (std::array<std::int32_t, 4>{4, 0, 1, 2}));
-  EXPECT_EQ(first_queries(near, 1)[0].separation.distance, 1.0);
-}
-
 // ---- Queries of files ---------------------------------------------------------------------------
-
-/// Queries that differ in one number.
-Query numbered(int number) { return tests::over_triangle(1, 1, 1, -0.1 * number).query; }
 
 /// A query as it is viewed.
 using AnyViewed = decltype(ViewedQuery::query);
-
-AnyViewed any(const Query& query) { return base::AnyQuery(Kind::vertex_face, query); }
 
 class QueryFiles : public tests::FolderTest {
  protected:
@@ -331,18 +249,6 @@ TEST_F(QueryFiles, ACertificateIsBounded) {
   EXPECT_EQ(reason("cut.cert.zst"), "its compressed stream is cut");
 }
 
-TEST_F(QueryFiles, LinesOfVertices) {
-  write("query.obj",
-        "# a query\nv 1 1 1\nv 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -0.10000000000000001\nv 0 0 0\n"
-        "v 4 0 0\nv 0 4 0\n");
-  const auto read_ones = queries("query.obj", {.kind = Kind::vertex_face});
-  ASSERT_EQ(read_ones.size(), 1U);
-  EXPECT_EQ(read_ones[0].query, any(numbered(1)));
-  EXPECT_NE(reason("query.obj"), "none") << "nothing says the kind";
-  write("few.obj", "v 1 2 3\n");
-  EXPECT_EQ(reason("few.obj", {.kind = Kind::edge_edge}), "3 numbers, not the 24 of a query");
-}
-
 TEST(ParseNumber, DecimalsHexadecimalsAndFractions) {
   EXPECT_EQ(parse_number("0.1"), 0.1);
   EXPECT_EQ(parse_number("-0x1.8p-3"), -0.1875);
@@ -352,13 +258,6 @@ TEST(ParseNumber, DecimalsHexadecimalsAndFractions) {
        {"", "x", "0x", "1e999", "nan", "inf", "0x1p+2000", "1/0", "1.5x"}) {
     EXPECT_THROW((void)parse_number(text), std::invalid_argument) << text;
   }
-}
-
-TEST(ParsePoints, AnySeparators) {
-  const Query query = parse_points(
-      "{{1, 1,1; (0 0 0) [4,0,0] 0 4 0\n1 1 -0x1.999999999999ap-4 0 0 0 4 0 0 0 4 0}}");
-  EXPECT_EQ(query, numbered(1));
-  EXPECT_THROW((void)parse_points("1 2 3"), std::invalid_argument);
 }
 
 }  // namespace
