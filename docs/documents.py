@@ -2,8 +2,9 @@
 """Writes the measured parts of the documents: `./run results`.
 
 docs/data contains the measurements as JSON, each file with its commands, their date and their results; published.json has what
-others published, and its sources. They are the source of docs/results.md and docs/results.svg (results_document.py), and of the
-marked parts of README.md, docs/benchmarks.md and docs/simulation.md. A marked part is between
+others published, and its sources. They are the source of docs/results.md and docs/results.svg (results_document.py), but for
+the last sections of results.md, which were measured once, and of the marked parts of README.md, docs/benchmarks.md and
+docs/simulation.md. A marked part is between
 <!-- made by ./run results: NAME --> and <!-- end -->; the function NAME below writes it.
 """
 
@@ -19,7 +20,6 @@ import subprocess
 import sys
 import tempfile
 
-import large_run
 import results_document
 from results_document import grouped, place_of, rows_of, time_ratio
 
@@ -88,7 +88,6 @@ COMMANDS = {
     "certificates": [f"prove {data} --threads 1".replace("  ", " ") for data in DATA],
     "step_proofs": [f"step simulation/{step}/frames/*.ply --earliest --candidates --threads 1" for step in STEPS],
     "simulations": [f"simulate {simulation}" for simulation in SIMULATIONS],
-    "large": [],  # large_run.py
 }
 
 # Fields that no document shows.
@@ -223,8 +222,7 @@ def measure_one(name, command, options, folder):
 
 def measure(name, options, folder):
     """Writes docs/data/NAME.json anew, with a line for each run."""
-    rows = ([reduced(row) for row in large_run.measure(options, run)] if name == "large"
-            else [measure_one(name, command, options, folder) for command in COMMANDS[name]])
+    rows = [measure_one(name, command, options, folder) for command in COMMANDS[name]]
     data = {"date": datetime.datetime.now(datetime.timezone.utc).date().isoformat()}
     if name == "results":
         processor = re.search("model name\\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
@@ -530,59 +528,6 @@ def one_miss(data):
         ["N", "queries", "motions", "that collide"], rows)
 
 
-def field_2026(data):
-    """The section of docs/results.md on solvers of others: measured elsewhere, once, with no command here."""
-    def cell(value):
-        return "–" if value is None else f"{value:,}" if isinstance(value, int) else f"{value:g}"
-
-    def name(row):
-        return [f"{row['project']} {row['function']}", f"`{row['commit']}`", row["options"]]
-
-    public, samples = data["public"], data["samples"]
-    late = [[*name(row), f"{cell(row['misses_at_start'])} / {cell(row['misses_later'])}", cell(row["false_positives"]),
-             "–" if row["late"] is None else
-             f"{cell(row['late'])} ({cell(row['late_by_at_most_1e-9'])}; {cell(row['latest'])})",
-             " / ".join(cell(row[f"built_in_{of}"]) for of in ("misses", "false_positives", "late")) +
-             f" of {cell(row['built_in_queries'])}", row["caveat"]] for row in public["rows"]]
-    sets = [[*name(row), *(f"{cell(row[f'{of}_misses'])} / {cell(row[f'{of}_false_positives'])}"
-                           for of in ("built_in", "handcrafted", "simulation")), row["caveat"]] for row in samples["rows"]]
-    return ["## The field in 2026, measured elsewhere", "",
-            f"Not made by `./run results`. {data['date']}, {data['measured']}. Of the promise: {data['promise']}.", "",
-            f"{public['queries']:,} public queries, of which {public['collisions']:,} collide:", "",
-            *table(["solver", "version", "options", "misses at t = 0 / later", "false positives",
-                    "late (of these ≤ 1e-9; greatest)", "built-in set: misses / false positives / late", "note"], late), "",
-            "An earlier measurement on other samples, misses / false positives: the built-in set of "
-            f"{samples['built_in_queries']:,} queries, `handcrafted` ({samples['handcrafted_queries']:,}) and `simulation` "
-            f"({samples['simulation_queries']:,}):", "",
-            *table(["solver", "version", "options", "built-in set", "handcrafted", "simulation", "note"], sets), ""]
-
-
-def large(data):
-    """The section of docs/results.md on the large run."""
-    of, stepped, sampled = data["runs"]
-    judged_, exact_ns = of["result"], of["ns"]["certified"]
-    deciding, answering = (sum(ns for name, ns in of["ns"].items() if (name == "oracle") == is_oracle) * judged_["queries"] / 6e10
-                           for is_oracle in (True, False))
-    rows = [["oracle", f"{judged_['queries']:,}", "–", "–", "–", rounded(of["ns"]["oracle"] / exact_ns)]]
-    for run_ in (of, sampled):
-        for m in run_["result"]["methods"]:
-            rows.append([f"`{m['name']}`", f"{m['queries']:,}", m["false_negatives"], f"{m['false_positives']:,}",
-                         f"{m['late_toi']:,}", rounded(run_["ns"][m["name"]] / exact_ns) if m["queries"] else "–"])
-    return ["## A large run", "",
-            f"Not part of the tables above. Made by `./run results large`, {data['date']}: the queries of "
-            f"{len(of['scenes'])} simulations (`./run simulate SCENE --record`; {', '.join(of['scenes'])}), "
-            f"{judged_['queries']:,} of them, of which {judged_['collisions']:,} collide; {of['bytes'] / 1e9:.1f} GB in "
-            f"{of['pieces']} files. Recorded in {of['recording_seconds'] / 60:.0f} minutes, and judged by {large_run.WORKERS} processes at a time of "
-            f"`examples/cluster/parallel.sh`, of which some were killed by SIGKILL and started again: {deciding:.1f} minutes of one core for "
-            f"the oracle and {answering:.1f} for the methods of the first command. A process has at most "
-            f"{of['greatest_memory_bytes'] / 1e6:.0f} MB.", "",
-            "```", of["command"], sampled["command"], "```", "",
-            *table(["method", "asked", "false negatives", "false positives", "late", "time, in that of certified"], rows), "",
-            "The second command asks as many of each file as its time allows.", "",
-            f"And `{stepped['command']}`: the {stepped['result']['steps']:,} steps of the last simulation, of "
-            f"which {stepped['result']['colliding']} collide.", ""]
-
-
 # The marked parts of the documents, in their order, each with its files of data.
 PARTS = {"README.md": [(summary, "results", "certify", "steps"), (compared, "certify")],
          "docs/benchmarks.md": [(results, "results"), (printed, "certify"), (judged, "certify"), (files, "files"), (patches, "patches"), (steps, "steps"),
@@ -619,9 +564,9 @@ def documents(options, folder):
     def read(name):
         return json.loads((options.root / f"docs/data/{name}.json").read_text())
 
-    sections = [line for part in (large, field_2026) for line in part(read(part.__name__))]
+    measured_once = re.search("## A large run.*", (options.root / "docs/results.md").read_text(), re.DOTALL)[0]
     text = results_document.document(*map(read, ("results", "separations", "filters", "published")))
-    return made | {"docs/results.md": "\n".join([text, *sections]),
+    return made | {"docs/results.md": f"{text}\n{measured_once}",
                    "docs/results.svg": results_document.picture(options.tool, rows_of(read("results")), folder, run)}
 
 
@@ -638,7 +583,7 @@ def differences(root, made):
 
 def main():
     parser = argparse.ArgumentParser(prog="./run results", description="Measures, and writes the documents' numbers.")
-    parser.add_argument("names", nargs="*", metavar="NAME", help=f"measure only: {' '.join(COMMANDS)} (default: all but large)")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"measure only: {' '.join(COMMANDS)} (default: all)")
     parser.add_argument("--check", action="store_true", help="only check that data and documents agree")
     parser.add_argument("--write", action="store_true", help="write the documents from docs/data, without measuring")
     parser.add_argument("--quick", action="store_true", help="measure times briefly, for a test of this program")
@@ -652,7 +597,7 @@ def main():
         parser.error(f"NAME is one of {' '.join(COMMANDS)}")
     with tempfile.TemporaryDirectory() as name:
         if not options.check and not options.write:
-            for data in options.names or [name for name in COMMANDS if name != "large"]:
+            for data in options.names or COMMANDS:
                 measure(data, options, pathlib.Path(name))
         made = documents(options, pathlib.Path(name))
     if options.check:

@@ -277,8 +277,7 @@ class BenchRun {
   // ---- Queries ----------------------------------------------------------------------------------
 
   void measure_candidates(const mesh::MovingMesh& mesh, Kind kind) {
-    const auto pairs = mesh::find_candidates(mesh, kind, 0, separation(), &io::interrupted());
-    const auto queries = mesh::queries_of(mesh, mesh::candidates_of(mesh, kind, pairs));
+    const auto queries = mesh::candidates_of(mesh, kind, separation(), &io::interrupted());
     measure(data::QueryGroup(mesh.name, kind, queries), separation());
   }
 

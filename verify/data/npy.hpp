@@ -16,7 +16,6 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -35,12 +34,6 @@ class Npz;
 // dictionary (2 bytes in version 1, else 4, little-endian) and the dictionary, of exactly descr,
 // fortran_order and shape; then the data. NumPy of Python 2 wrote extents as "8L".
 
-/// The error for a file without such a header, or with that of another array; what() is the reason.
-class NpyHeaderError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// The contents of the header.
 struct NpyHeader {
   std::string descr;           ///< the type: "<f8" is little-endian float64
@@ -52,13 +45,6 @@ struct NpyHeader {
 
 /// Fills the buffer, or a part of it at the end of the file; returns the number of bytes.
 using ReadBytes = std::function<std::size_t(std::span<char>)>;
-
-/// Reads the header and no byte more.
-/// \throws NpyHeaderError and the exceptions of `read`.
-[[nodiscard]] NpyHeader read_npy_header(const ReadBytes& read);
-
-/// "(3, 8, 3)"
-[[nodiscard]] std::string shape_text(const NpyHeader& header);
 
 /// The header of an array in C order whose first extent is `count`, always 128 bytes, so that it
 /// can be rewritten when the number is known.

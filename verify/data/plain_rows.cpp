@@ -8,7 +8,10 @@
 #include <cstring>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
+
+#include "touchstone/number.hpp"
 
 namespace touchstone::verify::data {
 namespace {
@@ -170,19 +173,11 @@ bool take_decimal(Cursor& cursor, WrittenNumber& number) {
 class PowersOfTwo {
  public:
   PowersOfTwo() {
-    std::string digits = "1";  // the last one first
     for (int exponent = 0; exponent <= greatest; ++exponent) {
-      const std::size_t length = digits.size();
-      if (length >= by_length_.size()) by_length_.resize(length + 1);
-      Text& text = by_length_[length][static_cast<std::size_t>(digits.back() - '0')];
-      text = {.digits = std::string(digits.rbegin(), digits.rend()), .exponent = exponent};
-      int carry = 0;
-      for (char& c : digits) {
-        const int twice = 2 * (c - '0') + carry;
-        c = static_cast<char>('0' + twice % 10);
-        carry = twice / 10;
-      }
-      if (carry != 0) digits += '1';
+      std::string digits = exact::power_of_two(exponent).get_str();
+      if (digits.size() >= by_length_.size()) by_length_.resize(digits.size() + 1);
+      Text& text = by_length_[digits.size()][static_cast<std::size_t>(digits.front() - '0')];
+      text = {.digits = std::move(digits), .exponent = exponent};
     }
   }
 

@@ -13,8 +13,6 @@
 
 namespace touchstone::verify::generate {
 
-using exact::Rational;
-
 namespace {
 
 void share_height(Sampler& sampler, Query& query) {
@@ -67,8 +65,7 @@ KnownQuery coplanar_interval(Recipe& recipe) {
   set(query, 0, 0, x);
   set(query, 0, 1, sampler.within(1, centre));
   const auto toi = meeting_time(x, side);
-  if (!toi) return no_collision_along(query, 0, -1.0);
-  return collision(query, toi, planar_contact(recipe.kind, query, *toi, {0, 1}));
+  return toi ? collision(query, toi) : no_collision(query);
 }
 
 /// The pair (v and f0, or ea0 and eb0) shares x = s(t). All else of the first primitive is right of
@@ -103,12 +100,10 @@ KnownQuery instant(Recipe& recipe, Sampler& sampler, Offset offset, Ending endin
     set(query, 3, 0, sampler.within(0, left));
     set(query, 3, 1, offset == Offset::inside ? target : sampler.within(1, centre));
   }
-  if (offset == Offset::outside)
-    return no_collision_along(query, 0, outside_direction(recipe.kind));
-  if (offset == Offset::inside) return collision(query, std::nullopt, std::nullopt);
+  if (offset == Offset::outside) return no_collision(query);
+  if (offset == Offset::inside) return collision(query, std::nullopt);
   const auto toi = meeting_time(y, target);
-  if (!toi) return no_collision(query);
-  return collision(query, toi, Contact{Rational(0), Rational(0)});
+  return toi ? collision(query, toi) : no_collision(query);
 }
 
 KnownQuery coplanar_instant(Recipe& recipe) {
@@ -128,7 +123,7 @@ KnownQuery coplanar_instant(Recipe& recipe) {
 }
 
 /// coplanar-instant on a grid, then the shears z += a·x + b·y and y += c·z with a, b, c in
-/// {−2..2}, {−2..2}, {−1, 1}: bijective linear maps, so verdict, toi and (u,v) stay. All numbers
+/// {−2..2}, {−2..2}, {−1, 1}: bijective linear maps, so verdict and toi stay. All numbers
 /// are multiples of the grid's step, 2^-48 or more, and below 16, so both are exact. The common
 /// plane is now oblique and moves; no two points share a coordinate but x. x is untouched, and so
 /// is a separation by x.
@@ -152,7 +147,7 @@ KnownQuery isolated_instant(Recipe& recipe) {
   }
   std::array<int, 3> exponents{};
   for (int& exponent : exponents) exponent = static_cast<int>(random.between(-8, 8));
-  scale_axes(exponents, known);
+  scale_axes(exponents, known.query);
   return known;
 }
 

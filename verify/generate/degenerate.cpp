@@ -20,20 +20,6 @@ namespace {
 /// Places on the line of the four points.
 using Places = std::array<std::int64_t, moving_points>;
 
-/// The parameter at which the segment from place a to place b is at 0; a ≤ 0 ≤ b or b ≤ 0 ≤ a.
-Rational parameter_of_zero(std::int64_t a, std::int64_t b) {
-  if (a == b) return {0};
-  Rational parameter{Integer(-a), Integer(b - a)};
-  parameter.canonicalize();
-  return parameter;
-}
-
-/// Contact at place 0: of the vertex with side f0f1, or of the edges.
-Contact contact_at_zero(Kind kind, const Places& places) {
-  if (kind == Kind::vertex_face) return {parameter_of_zero(places[1], places[2]), Rational(0)};
-  return {parameter_of_zero(places[0], places[1]), parameter_of_zero(places[2], places[3])};
-}
-
 /// The change of the contact at place 0.
 enum class Change : std::uint8_t { none, moved_off_line };
 
@@ -55,7 +41,7 @@ KnownQuery on_a_line(Recipe& recipe, const Places& places, bool ranges_meet, Cha
   if (change == Change::moved_off_line) shift_first(recipe.kind, shift, moment);
   const Query query = to_query(recipe, moment);
   if (!ranges_meet || change == Change::moved_off_line) return no_collision(query);
-  return collision(query, moment.time.value(), contact_at_zero(recipe.kind, places));
+  return collision(query, moment.time.value());
 }
 
 Change every_third_moved(const Recipe& recipe) {
@@ -141,9 +127,7 @@ KnownQuery zero_length_edges(Recipe& recipe) {
   if (!collides) shift_first(recipe.kind, shift, moment);
   const Query query = to_query(recipe, moment);
   if (!collides) return no_collision(query);
-  Rational along{Integer(all_collapse ? 0 : before), Integer(before + after)};
-  along.canonicalize();
-  return collision(query, moment.time.value(), Contact{along, Rational(0)});
+  return collision(query, moment.time.value());
 }
 
 /// All points stay on one line, at places k(t) that are linear in t between integers (the line
@@ -184,7 +168,7 @@ KnownQuery collinear_edges(Recipe& recipe) {
   if (gap1 > 0 || variant == 4) return no_collision(query);
   Rational toi{Integer(gap0), Integer(gap0 - gap1)};
   toi.canonicalize();
-  return collision(query, toi, Contact{Rational(0), Rational(0)});
+  return collision(query, toi);
 }
 
 constexpr std::array<Definition, 6> degenerate_list{{

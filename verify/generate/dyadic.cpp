@@ -26,13 +26,6 @@ struct Weights {
   std::int64_t first;
   std::int64_t second;
   std::int64_t total;
-
-  [[nodiscard]] Contact contact() const {
-    Contact contact{Rational(Integer(first), Integer(total)),
-                    Rational(Integer(second), Integer(total))};
-    for (Rational& parameter : contact) parameter.canonicalize();
-    return contact;
-  }
 };
 
 Weights draw_weights(Recipe& recipe, Place place) {
@@ -84,7 +77,7 @@ KnownQuery interior_dyadic(Recipe& recipe) {
   const Weights weights = draw_weights(recipe, inside ? Place::interior : Place::outside);
   const Moment moment = draw_rigid(recipe, weights, draw_inner_time(recipe.random));
   const Query query = to_query(recipe, moment);
-  return inside ? collision(query, moment.time.value(), weights.contact()) : no_collision(query);
+  return inside ? collision(query, moment.time.value()) : no_collision(query);
 }
 
 /// F(τ,u,v) = 0 by integer arithmetic, whatever the four velocities are. There may be an earlier
@@ -97,7 +90,7 @@ KnownQuery interior_deforming(Recipe& recipe) {
   moment.time = draw_inner_time(recipe.random);
   place_points(recipe, size, weights, moment);
   for (Vector& velocity : moment.velocity) velocity = draw_vector(recipe.random, size.velocity);
-  return collision(to_query(recipe, moment), std::nullopt, std::nullopt);
+  return collision(to_query(recipe, moment), std::nullopt);
 }
 
 /// Rational with the value numerator/denominator.
@@ -114,16 +107,16 @@ KnownQuery shifted(Recipe& recipe, const Weights& weights, Moment moment, const 
   const auto [e1, e2] = moment.edges(recipe.kind);
   const Vector r = moment.relative_velocity(recipe.kind);
   const Integer all = determinant(e1, e2, r);
-  const Contact before = weights.contact();
-  const Rational u(before[0] - ratio(determinant(s, e2, r), all));
-  const Rational v(before[1] - ratio(determinant(e1, s, r), all));
+  const Integer total(weights.total);
+  const Rational u(ratio(weights.first, total) - ratio(determinant(s, e2, r), all));
+  const Rational v(ratio(weights.second, total) - ratio(determinant(e1, s, r), all));
   const Rational t(moment.time.value() -
                    ratio(determinant(e1, e2, s), Integer(all * moment.time.denominator())));
   shift_first(recipe.kind, s, moment);
   const Query query = to_query(recipe, moment);
   const bool in_time = t >= 0 && t <= 1;
   const bool in_domain = u >= 0 && v >= 0 && (recipe.vertex_face() ? u + v <= 1 : u <= 1 && v <= 1);
-  return in_time && in_domain ? collision(query, t, Contact{u, v}) : no_collision(query);
+  return in_time && in_domain ? collision(query, t) : no_collision(query);
 }
 
 KnownQuery boundary_dyadic(Recipe& recipe, Place place) {
@@ -132,7 +125,7 @@ KnownQuery boundary_dyadic(Recipe& recipe, Place place) {
   if (recipe.variant % 2 == 1) {
     return shifted(recipe, weights, moment, draw_unit_shift(recipe.random));
   }
-  return collision(to_query(recipe, moment), moment.time.value(), weights.contact());
+  return collision(to_query(recipe, moment), moment.time.value());
 }
 
 /// The only root is on a corner of the domain: vertex on vertex, or end on end. In every second
@@ -152,7 +145,7 @@ KnownQuery contact_at_start(Recipe& recipe) {
   moment.time = {0, static_cast<int>(recipe.random.between(1, 4))};
   place_points(recipe, size, weights, moment);
   for (Vector& velocity : moment.velocity) velocity = draw_vector(recipe.random, size.velocity);
-  return collision(to_query(recipe, moment), Rational(0), weights.contact());
+  return collision(to_query(recipe, moment), Rational(0));
 }
 
 /// r = 0: nothing moves, or all points move alike, so F does not depend on t. The chosen (u,v) is a
@@ -179,7 +172,7 @@ KnownQuery no_motion(Recipe& recipe) {
   if (variant == 5) shift_first(recipe.kind, off_plane, moment);
   const Query query = to_query(recipe, moment);
   const bool collides = variant != 5 && places.at(variant) != Place::outside;
-  return collides ? collision(query, Rational(0), weights.contact()) : no_collision(query);
+  return collides ? collision(query, Rational(0)) : no_collision(query);
 }
 
 constexpr std::array<Definition, 6> dyadic_list{{

@@ -79,8 +79,8 @@ KnownQuery element_outcome(const Recipe& recipe, const Query& query) {
     const auto root = meeting_time(base, other);
     if (root && (!first || *root < *first)) first = root;
   }
-  if (start <= 0) return collision(query, Rational(0), std::nullopt);
-  return first ? collision(query, first, std::nullopt) : no_collision(query);
+  if (start <= 0) return collision(query, Rational(0));
+  return first ? collision(query, first) : no_collision(query);
 }
 
 /// Any factors cross 0; some elements begin inverted, by a negative factor.
@@ -187,7 +187,7 @@ KnownQuery flat_at_known_time(Recipe& recipe) {
       }
     }
     if (!are_positive(volume_coefficients(recipe, query, mirrored))) continue;
-    return collision(query, Rational(1 / (1 + Rational(factor))), std::nullopt);
+    return collision(query, Rational(1 / (1 + Rational(factor))));
   }
 }
 
@@ -207,8 +207,8 @@ KnownQuery grazing_volume(Recipe& recipe) {
         sampler.nudged(line, axis == 0 ? (side < 0 ? -steps : steps) : (side == 0 ? 0 : steps)));
   }
   for (const std::size_t point : {1U, 2U}) set(query, point, 2, line_of(query, 0, 2));
-  if (side == 0) return collision(query, Rational(1, 2), std::nullopt);
-  return side < 0 ? no_collision(query) : collision(query, std::nullopt, std::nullopt);
+  if (side == 0) return collision(query, Rational(1, 2));
+  return side < 0 ? no_collision(query) : collision(query, std::nullopt);
 }
 
 KnownQuery random_elements(Recipe& recipe) {
@@ -217,7 +217,7 @@ KnownQuery random_elements(Recipe& recipe) {
     const Query query = draw_points(sampler);
     const std::vector<Rational> all = volume_coefficients(recipe, query, 0);
     if (are_positive(all)) return no_collision(query);
-    if (all.front() > 0 && all.back() < 0) return collision(query, std::nullopt, std::nullopt);
+    if (all.front() > 0 && all.back() < 0) return collision(query, std::nullopt);
   }
 }
 
@@ -236,7 +236,7 @@ KnownQuery all_scales(Recipe& recipe) {
   std::array<int, 3> exponents{};
   for (int& exponent : exponents) exponent = static_cast<int>(recipe.random.between(-480, 480));
   if (variant / bases.size() % 3 == 0) exponents[1] = exponents[2] = exponents[0];
-  scale_axes(exponents, known);
+  scale_axes(exponents, known.query);
   return known;
 }
 

@@ -51,8 +51,6 @@ void draw_rest_yz(Sampler& sampler, Query& query) {
   }
 }
 
-const Contact contact_of_pair{Rational(0), Rational(0)};
-
 /// The pair has the same doubles at t=1. In x, at t=0, the first primitive is left of the second,
 /// and at t=1 too but for the pair: every corner has x < 0 for all t < 1. Hence toi = 1.
 KnownQuery pair_at_end(Recipe& recipe) {
@@ -66,7 +64,7 @@ KnownQuery pair_at_end(Recipe& recipe) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     query.at(1, roles.second, axis) = query.at(1, roles.first, axis);
   }
-  return collision(query, Rational(1), contact_of_pair);
+  return collision(query, Rational(1));
 }
 
 /// The pair meets at t=1 only; or flat primitives, whose projections always meet, reach the same
@@ -82,7 +80,7 @@ KnownQuery contact_at_end(Recipe& recipe) {
   const Line second = sampler.within(2, centre);
   const Line first{sampler.draw(2, {-3.0, -1.0}), second.end};
   set_heights(recipe.kind, first, second, query);
-  return level_outcome(recipe.kind, Offset::none, first, second, query);
+  return level_outcome(Offset::none, first, second, query);
 }
 
 /// The pair has the same doubles at t=0 (or x, y or z one unit in the last place apart), all others
@@ -100,10 +98,10 @@ KnownQuery start_left(Recipe& recipe) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     query.at(0, roles.second, axis) = query.at(0, roles.first, axis);
   }
-  if (variant == 0) return collision(query, Rational(0), contact_of_pair);
+  if (variant == 0) return collision(query, Rational(0));
   const std::size_t axis = variant - 1;
   query.at(0, roles.first, axis) = sampler.nudged(query.at(0, roles.first, axis), 1);
-  return variant == 1 ? no_collision_along(query, 0, 1.0) : no_collision(query);
+  return no_collision(query);
 }
 
 /// The pair's first point goes from p to q and its second from q to p, any doubles: in each
@@ -123,7 +121,7 @@ KnownQuery swap_at_half(Recipe& recipe) {
     query.at(0, roles.second, axis) = query.at(1, roles.first, axis);
     query.at(1, roles.second, axis) = query.at(0, roles.first, axis);
   }
-  if (!is_apart) return collision(query, Rational(1, 2), contact_of_pair);
+  if (!is_apart) return collision(query, Rational(1, 2));
   const Line shared = sampler.within(1, centre);
   set(query, roles.second, 1, shared);
   set(query, roles.first, 1, sampler.nudged(shared, 1));
@@ -131,7 +129,7 @@ KnownQuery swap_at_half(Recipe& recipe) {
   for (std::size_t point = roles.rest_begin_of_second; point < moving_points; ++point) {
     set(query, point, 1, sampler.within(1, left));
   }
-  return no_collision_along(query, 1, 1.0);
+  return no_collision(query);
 }
 
 constexpr std::array<Definition, 3> endpoint_list{{

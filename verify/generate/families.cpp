@@ -101,10 +101,9 @@ KnownQuery build(const Definition& definition, Kind kind, std::uint64_t seed, st
                   .random = stream_of(definition.family.name, kind, seed, index, attempt),
                   .separation = separation};
     KnownQuery known = definition.build(recipe);
-    const bool is_full = recipe.full && uses_full_significands(known.query);
-    if (recipe.full && !is_full && !is_about_separation(definition)) continue;
-    known.full_significands = is_full;
-    if (!recipe.as_printed) apply_random_symmetry(kind, recipe.random, known);
+    const bool is_to_be_full = recipe.full && !is_about_separation(definition);
+    if (is_to_be_full && !uses_full_significands(known.query)) continue;
+    if (!recipe.as_printed) apply_random_symmetry(kind, recipe.random, known.query);
     return known;
   }
 }

@@ -57,13 +57,6 @@ struct KnownQuery {
   bool collides = false;
   /// The exact time of impact, if the construction yields it: for nearly all collisions.
   std::optional<exact::Rational> toi;
-  /// (u,v) of a contact point at the toi, if the construction yields it: F(toi,u,v) = 0.
-  std::optional<std::array<exact::Rational, 2>> contact;
-  /// For some queries without collision a direction d with d·F > 0 for all t in [0,1] and all (u,v)
-  /// of the domain.
-  std::optional<std::array<double, 3>> separating_direction;
-  /// True if it belongs to the half with full significands.
-  bool full_significands = false;
 };
 
 /// All families about contact, always in the same order.

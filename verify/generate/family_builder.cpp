@@ -28,47 +28,16 @@ void swap_points(Query& query, std::size_t a, std::size_t b) {
   }
 }
 
-void swap_axes(KnownQuery& known, std::size_t a, std::size_t b) {
+void swap_axes(Query& query, std::size_t a, std::size_t b) {
   for_each_point([&](std::size_t end, std::size_t point) {
-    std::swap(known.query.at(end, point, a), known.query.at(end, point, b));
+    std::swap(query.at(end, point, a), query.at(end, point, b));
   });
-  if (known.separating_direction) {
-    std::swap((*known.separating_direction)[a], (*known.separating_direction)[b]);
-  }
 }
 
-void mirror_axis(KnownQuery& known, std::size_t axis) {
+void mirror_axis(Query& query, std::size_t axis) {
   for_each_point([&](std::size_t end, std::size_t point) {
-    known.query.at(end, point, axis) = -known.query.at(end, point, axis);
+    query.at(end, point, axis) = -query.at(end, point, axis);
   });
-  if (known.separating_direction) {
-    (*known.separating_direction)[axis] = -(*known.separating_direction)[axis];
-  }
-}
-
-/// Exchanges vertices `a` and `b` (0..2) of the face, and the weights (1−u−v, u, v) with them.
-void swap_face_vertices(KnownQuery& known, std::size_t a, std::size_t b) {
-  swap_points(known.query, 1 + a, 1 + b);
-  if (!known.contact) return;
-  const auto [u, v] = *known.contact;
-  std::array<Rational, 3> weights{Rational(1 - u - v), u, v};
-  std::swap(weights.at(a), weights.at(b));
-  known.contact = Contact{weights[1], weights[2]};
-}
-
-void swap_edge_ends(KnownQuery& known, std::size_t edge) {
-  swap_points(known.query, 2 * edge, 2 * edge + 1);
-  if (known.contact) known.contact->at(edge) = 1 - known.contact->at(edge);
-}
-
-/// Exchanges the two edges: F becomes −F.
-void swap_edges(KnownQuery& known) {
-  swap_points(known.query, 0, 2);
-  swap_points(known.query, 1, 3);
-  if (known.contact) std::swap((*known.contact)[0], (*known.contact)[1]);
-  if (known.separating_direction) {
-    for (double& component : *known.separating_direction) component = -component;
-  }
 }
 
 bool scales_exactly(const Query& query, std::size_t axis, int exponent) {
@@ -83,27 +52,12 @@ bool scales_exactly(const Query& query, std::size_t axis, int exponent) {
 
 }  // namespace
 
-KnownQuery collision(const Query& query, std::optional<Rational> toi,
-                     std::optional<Contact> contact) {
-  KnownQuery known;
-  known.query = query;
-  known.collides = true;
-  known.toi = std::move(toi);
-  known.contact = std::move(contact);
-  return known;
+KnownQuery collision(const Query& query, std::optional<Rational> toi) {
+  return {.query = query, .collides = true, .toi = std::move(toi)};
 }
 
 KnownQuery no_collision(const Query& query) {
-  KnownQuery known;
-  known.query = query;
-  return known;
-}
-
-KnownQuery no_collision_along(const Query& query, std::size_t axis, double direction) {
-  KnownQuery known = no_collision(query);
-  known.separating_direction = std::array<double, 3>{};
-  known.separating_direction->at(axis) = direction;
-  return known;
+  return {.query = query, .collides = false, .toi = std::nullopt};
 }
 
 Rational corner_at(const Query& query, const Corner& corner, std::size_t axis, const Rational& t) {
@@ -113,21 +67,6 @@ Rational corner_at(const Query& query, const Corner& corner, std::size_t axis, c
   };
   const Rational start = difference(0);
   return {start + t * (difference(1) - start)};
-}
-
-std::optional<Contact> planar_contact(Kind kind, const Query& query, const Rational& t,
-                                      const std::array<std::size_t, 2>& axes) {
-  const auto all = corners(kind);
-  std::array<Rational, 2> w0, along_u, along_v;
-  for (std::size_t i = 0; i < 2; ++i) {
-    w0.at(i) = corner_at(query, all.front(), axes.at(i), t);
-    along_u.at(i) = corner_at(query, all[1], axes.at(i), t) - w0.at(i);
-    along_v.at(i) = corner_at(query, all.back(), axes.at(i), t) - w0.at(i);
-  }
-  const Rational area = along_u[0] * along_v[1] - along_u[1] * along_v[0];
-  if (area == 0) return std::nullopt;
-  return Contact{Rational((along_v[0] * w0[1] - along_v[1] * w0[0]) / area),
-                 Rational((along_u[1] * w0[0] - along_u[0] * w0[1]) / area)};
 }
 
 bool uses_full_significands(const Query& query) {
@@ -148,40 +87,38 @@ bool uses_full_significands(const Query& query) {
   return exponents.size() > 1 && 2 * static_cast<std::size_t>(full) > magnitudes.size();
 }
 
-void apply_random_symmetry(Kind kind, Random& random, KnownQuery& known) {
+void apply_random_symmetry(Kind kind, Random& random, Query& query) {
   if (is_element(kind)) {
-    known.query = image(draw_isometry(kind, random), known.query).value();
+    query = image(draw_isometry(kind, random), query).value();
     return;
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    swap_axes(known, axis, static_cast<std::size_t>(random.between(static_cast<int>(axis), 2)));
-    if (random.coin()) mirror_axis(known, axis);
+    swap_axes(query, axis, static_cast<std::size_t>(random.between(static_cast<int>(axis), 2)));
+    if (random.coin()) mirror_axis(query, axis);
   }
   if (kind == Kind::vertex_face) {
     for (std::size_t i = 0; i < 2; ++i) {
-      swap_face_vertices(known, i,
-                         static_cast<std::size_t>(random.between(static_cast<int>(i), 2)));
+      swap_points(query, 1 + i,
+                  1 + static_cast<std::size_t>(random.between(static_cast<int>(i), 2)));
     }
     return;
   }
   for (std::size_t edge = 0; edge < 2; ++edge) {
-    if (random.coin()) swap_edge_ends(known, edge);
+    if (random.coin()) swap_points(query, 2 * edge, 2 * edge + 1);
   }
-  if (random.coin()) swap_edges(known);
+  if (!random.coin()) return;
+  swap_points(query, 0, 2);
+  swap_points(query, 1, 3);
 }
 
-void scale_axes(const std::array<int, 3>& exponents, KnownQuery& known) {
+void scale_axes(const std::array<int, 3>& exponents, Query& query) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const int wanted = exponents.at(axis);
-    const int exponent = scales_exactly(known.query, axis, wanted) ? wanted : -wanted;
+    const int exponent = scales_exactly(query, axis, wanted) ? wanted : -wanted;
     for_each_point([&](std::size_t end, std::size_t point) {
-      double& coordinate = known.query.at(end, point, axis);
+      double& coordinate = query.at(end, point, axis);
       coordinate = std::ldexp(coordinate, exponent);
     });
-    if (known.separating_direction) {
-      double& component = known.separating_direction->at(axis);
-      component = std::ldexp(component, -exponent);
-    }
   }
 }
 

@@ -45,7 +45,7 @@ struct Recipe {
 /// A family with its builder.
 struct Definition {
   Family family;
-  /// Builds the query in its canonical position; sets all fields but `full_significands`.
+  /// Builds the query in its canonical position.
   KnownQuery (*build)(Recipe&);
   /// The kinds it has.
   bool vertex_face = true;
@@ -86,38 +86,25 @@ struct DrawnSet {
     DrawnSet set, std::uint64_t count,
     std::function<data::RecordedQuery(std::uint64_t index)> draw);
 
-/// (u,v) of a contact.
-using Contact = std::array<exact::Rational, 2>;
-
 /// The outcomes of a construction.
-[[nodiscard]] KnownQuery collision(const Query& query, std::optional<exact::Rational> toi,
-                                   std::optional<Contact> contact);
+[[nodiscard]] KnownQuery collision(const Query& query, std::optional<exact::Rational> toi);
 [[nodiscard]] KnownQuery no_collision(const Query& query);
-
-/// No collision, proved by F·axis: it is > 0 (direction +1) or < 0 (direction −1) for all t, u, v.
-[[nodiscard]] KnownQuery no_collision_along(const Query& query, std::size_t axis, double direction);
 
 /// Coordinate `axis` of a corner at time t.
 [[nodiscard]] exact::Rational corner_at(const Query& query, const Corner& corner, std::size_t axis,
                                         const exact::Rational& t);
-
-/// The (u,v) for which F(t,u,v) vanishes in the two axes, if it is unique.
-[[nodiscard]] std::optional<Contact> planar_contact(Kind kind, const Query& query,
-                                                    const exact::Rational& t,
-                                                    const std::array<std::size_t, 2>& axes);
 
 /// True if more than half of the different magnitudes among the coordinates need 45 bits or more,
 /// and they have at least two binary exponents. Zeros are ignored.
 [[nodiscard]] bool uses_full_significands(const Query& query);
 
 /// Replaces a query by one of its mirror images: axes permuted and mirrored, the face's vertices or
-/// the edges' ends permuted, the two edges exchanged. Verdict and toi do not change; (u,v) and the
-/// separating direction are transformed. Every coordinate keeps its significand.
-void apply_random_symmetry(Kind kind, Random& random, KnownQuery& known);
+/// the edges' ends permuted, the two edges exchanged. Verdict and toi do not change, nor the
+/// significand of any coordinate.
+void apply_random_symmetry(Kind kind, Random& random, Query& query);
 
-/// Multiplies every axis by its own power of two. Verdict, toi and (u,v) do not change, since a
-/// diagonal map of full rank maps F to F; an exponent that would not be exact is replaced by its
-/// negative.
-void scale_axes(const std::array<int, 3>& exponents, KnownQuery& known);
+/// Multiplies every axis by its own power of two. Verdict and toi do not change, since a diagonal
+/// map of full rank maps F to F; an exponent that would not be exact is replaced by its negative.
+void scale_axes(const std::array<int, 3>& exponents, Query& query);
 
 }  // namespace touchstone::verify::generate

@@ -162,10 +162,9 @@ class LevelScene {
 };
 
 Query straight_query(Order family, Kind kind, int level, bool collides, Random& random) {
-  KnownQuery known;
-  known.query = LevelScene(family, kind, level, collides, random).query();
-  apply_random_symmetry(kind, random, known);
-  return known.query;
+  Query query = LevelScene(family, kind, level, collides, random).query();
+  apply_random_symmetry(kind, random, query);
+  return query;
 }
 
 // ---- Curves -------------------------------------------------------------------------------------

@@ -85,8 +85,6 @@ void draw_plan(Kind kind, Spot spot, Offset offset, Sampler& sampler, Query& que
   if (spot == Spot::corner) draw_corner(kind, steps, sampler, query);
 }
 
-double outside_direction(Kind kind) { return kind == Kind::vertex_face ? -1.0 : 1.0; }
-
 void set_heights(Kind kind, const Line& first, const Line& second, Query& query) {
   const std::size_t size_of_first = kind == Kind::vertex_face ? 1 : 2;
   for (std::size_t point = 0; point < moving_points; ++point) {
@@ -94,12 +92,9 @@ void set_heights(Kind kind, const Line& first, const Line& second, Query& query)
   }
 }
 
-KnownQuery level_outcome(Kind kind, Offset offset, const Line& first, const Line& second,
-                         const Query& query) {
-  if (offset == Offset::outside) return no_collision_along(query, 0, outside_direction(kind));
+KnownQuery level_outcome(Offset offset, const Line& first, const Line& second, const Query& query) {
   const auto toi = meeting_time(first, second);
-  if (toi) return collision(query, toi, planar_contact(kind, query, *toi, {0, 1}));
-  return no_collision_along(query, 2, first.start < second.start ? -1.0 : 1.0);
+  return toi && offset != Offset::outside ? collision(query, toi) : no_collision(query);
 }
 
 }  // namespace touchstone::verify::generate

@@ -33,14 +33,11 @@ inline constexpr Zone left{-3.0, -2.0};
 /// that x separates them strictly at all times.
 void draw_plan(Kind kind, Spot spot, Offset offset, Sampler& sampler, Query& query);
 
-/// The sign of F's x for all t if the plan is Offset::outside.
-[[nodiscard]] double outside_direction(Kind kind);
-
 /// Sets z of all points.
 void set_heights(Kind kind, const Line& first, const Line& second, Query& query);
 
 /// The outcome for heights and plan. The heights differ at t=0, or meet there.
-[[nodiscard]] KnownQuery level_outcome(Kind kind, Offset offset, const Line& first,
-                                       const Line& second, const Query& query);
+[[nodiscard]] KnownQuery level_outcome(Offset offset, const Line& first, const Line& second,
+                                       const Query& query);
 
 }  // namespace touchstone::verify::generate

@@ -125,15 +125,6 @@ bool triangular_contact(Kind kind, const Query& query, const Rational& t) {
   return w.alpha == 0 || (w.beta == 0 && w.alpha * w.p <= 0);
 }
 
-std::optional<Contact> triangular_parameters(Kind kind, const Query& query, const Rational& t) {
-  const Triangular w(kind, query, t);
-  if (w.alpha == 0) return Contact{Rational(0), Rational(0)};
-  if (w.beta == 0 && w.alpha * w.p <= 0) {
-    return Contact{Rational(w.alpha / (w.alpha - w.p)), Rational(0)};
-  }
-  return planar_contact(kind, query, t, {0, 1});
-}
-
 /// The verdict at each root, earliest first.
 KnownQuery triangular_outcome(Kind kind, const Pairs& pairs, const Query& query) {
   std::vector<Rational> roots;
@@ -143,9 +134,7 @@ KnownQuery triangular_outcome(Kind kind, const Pairs& pairs, const Query& query)
   }
   std::sort(roots.begin(), roots.end());
   for (const Rational& t : roots) {
-    if (triangular_contact(kind, query, t)) {
-      return collision(query, t, triangular_parameters(kind, query, t));
-    }
+    if (triangular_contact(kind, query, t)) return collision(query, t);
   }
   return no_collision(query);
 }

@@ -26,8 +26,20 @@ Query to_query(const Points& points) {
   return query;
 }
 
-bool in_domain(Kind kind, const Contact& contact) {
-  const auto& [u, v] = contact;
+/// Are the first two coordinates of F zero at the time inside the domain? Nothing if that is so at
+/// no (u,v), or at many.
+std::optional<bool> meet_in_plane(Kind kind, const Query& query, const Rational& t) {
+  const auto all = corners(kind);
+  std::array<Rational, 2> w0, along_u, along_v;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    w0.at(axis) = corner_at(query, all.front(), axis, t);
+    along_u.at(axis) = corner_at(query, all[1], axis, t) - w0.at(axis);
+    along_v.at(axis) = corner_at(query, all.back(), axis, t) - w0.at(axis);
+  }
+  const Rational area = along_u[0] * along_v[1] - along_u[1] * along_v[0];
+  if (area == 0) return std::nullopt;
+  const Rational u = (along_v[0] * w0[1] - along_v[1] * w0[0]) / area,
+                 v = (along_u[1] * w0[0] - along_u[0] * w0[1]) / area;
   if (u < 0 || v < 0) return false;
   return kind == Kind::vertex_face ? u + v <= 1 : u <= 1 && v <= 1;
 }
@@ -73,15 +85,15 @@ Query draw_hourglass(Recipe& recipe) {
 KnownQuery hourglass(Recipe& recipe) {
   recipe.as_printed = recipe.index == 0 && recipe.vertex_face();
   const std::size_t first_of_second = recipe.vertex_face() ? 1 : 2;
-  std::optional<Contact> contact;
+  std::optional<bool> meets;
   Query query{};
   Rational toi;
-  while (!contact) {
+  while (!meets) {
     query = recipe.as_printed ? to_query(printed_hourglass) : draw_hourglass(recipe);
     toi = *meeting_time(line_of(query, 0, 2), line_of(query, first_of_second, 2));
-    contact = planar_contact(recipe.kind, query, toi, {0, 1});
+    meets = meet_in_plane(recipe.kind, query, toi);
   }
-  return in_domain(recipe.kind, *contact) ? collision(query, toi, contact) : no_collision(query);
+  return *meets ? collision(query, toi) : no_collision(query);
 }
 
 constexpr Points printed_inflection{
@@ -97,7 +109,6 @@ constexpr Points edge_inflection{
 KnownQuery inflection(Recipe& recipe) {
   KnownQuery known =
       no_collision(to_query(recipe.vertex_face() ? printed_inflection : edge_inflection));
-  known.separating_direction = {8.0, 1.0, -4.0};
   if (recipe.index == 0) {
     recipe.as_printed = true;
     return known;
@@ -109,7 +120,7 @@ KnownQuery inflection(Recipe& recipe) {
   }
   std::array<int, 3> exponents{};
   for (int& exponent : exponents) exponent = static_cast<int>(random.between(-10, 10));
-  scale_axes(exponents, known);
+  scale_axes(exponents, known.query);
   return known;
 }
 
@@ -164,10 +175,9 @@ KnownQuery sliding_degenerate(Recipe& recipe) {
   Sampler sampler(recipe);
   const Query query =
       recipe.as_printed ? to_query(printed_sliding) : draw_sliding(recipe, slide, sampler);
-  if (slide == Slide::beside) return no_collision_along(query, 0, 1.0);
+  if (slide == Slide::beside) return no_collision(query);
   const auto toi = meeting_time(line_of(query, 0, 1), line_of(query, 2, 1));
-  if (!toi) return no_collision_along(query, 1, -1.0);
-  return collision(query, toi, planar_contact(recipe.kind, query, *toi, {0, 1}));
+  return toi ? collision(query, toi) : no_collision(query);
 }
 
 constexpr std::array<Definition, 3> published_list{{

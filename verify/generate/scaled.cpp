@@ -33,7 +33,7 @@ KnownQuery build_base(Recipe& recipe) {
 KnownQuery scaled_by_200(Recipe& recipe) {
   KnownQuery known = build_base(recipe);
   const int exponent = recipe.random.coin() ? 200 : -200;
-  scale_axes({exponent, exponent, exponent}, known);
+  scale_axes({exponent, exponent, exponent}, known.query);
   return known;
 }
 
@@ -42,7 +42,7 @@ KnownQuery mixed_scales(Recipe& recipe) {
   KnownQuery known = build_base(recipe);
   std::array<int, 3> exponents{};
   for (int& exponent : exponents) exponent = static_cast<int>(recipe.random.between(-200, 200));
-  scale_axes(exponents, known);
+  scale_axes(exponents, known.query);
   return known;
 }
 
@@ -67,7 +67,7 @@ KnownQuery extreme_range(Recipe& recipe) {
   const Line first = sampler.from_to(2, {-3.0, -1.0}, {1.0, 3.0});
   const Line second = recipe.full ? sampler.within(2, centre) : Line{0x1p-1074, -0x1p-1074};
   set_heights(recipe.kind, first, second, query);
-  return level_outcome(recipe.kind, offset, first, second, query);
+  return level_outcome(offset, first, second, query);
 }
 
 constexpr std::array<Definition, 3> scaled_list{{

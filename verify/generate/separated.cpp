@@ -79,7 +79,7 @@ Sampler draw_scene(Recipe& recipe) {
 }
 
 KnownQuery outcome(const Query& query, const Arrival& arrived) {
-  return arrived.comes ? collision(query, arrived.time, std::nullopt) : no_collision(query);
+  return arrived.comes ? collision(query, arrived.time) : no_collision(query);
 }
 
 /// A difference of two coordinates, assigned to one of them, or half to each.

@@ -29,7 +29,7 @@ KnownQuery crossing(Recipe& recipe, Spot spot) {
   const Line first = sampler.from_to(2, below, above);
   const Line second = sampler.within(2, centre);
   set_heights(recipe.kind, first, second, query);
-  return level_outcome(recipe.kind, offset, first, second, query);
+  return level_outcome(offset, first, second, query);
 }
 
 KnownQuery silhouette_edge(Recipe& recipe) { return crossing(recipe, Spot::edge); }
@@ -47,7 +47,7 @@ KnownQuery end_approached(Recipe& recipe) {
   const int steps = static_cast<int>(recipe.variant % 3) - 1;
   const Line first{sampler.draw(2, below), sampler.nudged(second.end, steps)};
   set_heights(recipe.kind, first, second, query);
-  return level_outcome(recipe.kind, Offset::none, first, second, query);
+  return level_outcome(Offset::none, first, second, query);
 }
 
 /// Sides f0f1 at x = s and f2 at s plus eight units in the last place. The vertex is on the long
@@ -72,9 +72,8 @@ KnownQuery needle_triangle(Recipe& recipe) {
   const Line first = sampler.from_to(2, below, above);
   const Line second = sampler.within(2, centre);
   set_heights(recipe.kind, first, second, query);
-  if (steps == -1) return no_collision_along(query, 0, -1.0);
-  if (steps == 9) return no_collision_along(query, 0, 1.0);
-  return level_outcome(recipe.kind, Offset::none, first, second, query);
+  if (steps == -1 || steps == 9) return no_collision(query);
+  return level_outcome(Offset::none, first, second, query);
 }
 
 constexpr std::array<Definition, 4> silhouette_list{{

@@ -107,9 +107,8 @@ KnownQuery tangential(Recipe& recipe) {
   }
   const Query query = to_query(recipe, moment);
   if (variant == 2) return no_collision(query);
-  if (variant == 1) return collision(query, std::nullopt, std::nullopt);
-  const exact::Rational toi = tangency.time.value();
-  return collision(query, toi, planar_contact(recipe.kind, query, toi, {0, 1}));
+  if (variant == 1) return collision(query, std::nullopt);
+  return collision(query, tangency.time.value());
 }
 
 constexpr std::array<Definition, 1> tangential_list{{

@@ -7,22 +7,16 @@
 namespace touchstone::verify::io {
 namespace {
 
-ZSTD_CCtx* as_context(void* pointer) { return static_cast<ZSTD_CCtx*>(pointer); }
-
 void require(std::size_t result) {
   if (ZSTD_isError(result) == 0) return;
   throw std::runtime_error(std::string("compression failed: ") + ZSTD_getErrorName(result));
 }
 
-ZSTD_DCtx* as_decompression(void* pointer) { return static_cast<ZSTD_DCtx*>(pointer); }
-
 }  // namespace
 
-void Compressor::Free::operator()(void* context) const { ZSTD_freeCCtx(as_context(context)); }
-
-Compressor::Compressor() : context_(ZSTD_createCCtx()) {
+Compressor::Compressor() : context_(ZSTD_createCCtx(), ZSTD_freeCCtx) {
   if (!context_) throw std::runtime_error("compression failed: no memory");
-  require(ZSTD_CCtx_setParameter(as_context(context_.get()), ZSTD_c_checksumFlag, 1));
+  require(ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_checksumFlag, 1));
 }
 
 std::string Compressor::compress(std::string_view bytes) { return run(bytes, false); }
@@ -36,8 +30,8 @@ std::string Compressor::run(std::string_view bytes, bool last) {
     const std::size_t before = result.size();
     result.resize(before + ZSTD_CStreamOutSize());
     ZSTD_outBuffer out{result.data(), result.size(), before};
-    const std::size_t left = ZSTD_compressStream2(as_context(context_.get()), &out, &in,
-                                                  last ? ZSTD_e_end : ZSTD_e_continue);
+    const std::size_t left =
+        ZSTD_compressStream2(context_.get(), &out, &in, last ? ZSTD_e_end : ZSTD_e_continue);
     require(left);
     done = last ? left == 0 : in.pos == in.size;
     result.resize(out.pos);
@@ -45,18 +39,14 @@ std::string Compressor::run(std::string_view bytes, bool last) {
   return result;
 }
 
-void Decompressor::Free::operator()(void* context) const {
-  ZSTD_freeDCtx(as_decompression(context));
-}
-
-Decompressor::Decompressor() : context_(ZSTD_createDCtx()) {
+Decompressor::Decompressor() : context_(ZSTD_createDCtx(), ZSTD_freeDCtx) {
   if (!context_) throw std::runtime_error("decompression failed: no memory");
 }
 
 std::size_t Decompressor::decompress(std::string_view& bytes, std::span<char> buffer) {
   ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
   ZSTD_outBuffer out{buffer.data(), buffer.size(), 0};
-  const std::size_t left = ZSTD_decompressStream(as_decompression(context_.get()), &out, &in);
+  const std::size_t left = ZSTD_decompressStream(context_.get(), &out, &in);
   if (ZSTD_isError(left) != 0) {
     throw std::runtime_error(std::string("decompression failed: ") + ZSTD_getErrorName(left));
   }

@@ -10,6 +10,9 @@
 #include <string>
 #include <string_view>
 
+struct ZSTD_CCtx_s;
+struct ZSTD_DCtx_s;
+
 namespace touchstone::verify::io {
 
 /// One frame, with a checksum. What compress() and finish() return, in order, is the compressed
@@ -28,12 +31,9 @@ class Compressor {
   [[nodiscard]] std::string finish();
 
  private:
-  struct Free {
-    void operator()(void* context) const;
-  };
   std::string run(std::string_view bytes, bool last);
 
-  std::unique_ptr<void, Free> context_;
+  std::unique_ptr<ZSTD_CCtx_s, std::size_t (*)(ZSTD_CCtx_s*)> context_;
 };
 
 /// Any number of frames, in bounded memory, independent of the sizes that frames declare.
@@ -51,11 +51,7 @@ class Decompressor {
   [[nodiscard]] bool is_complete() const { return is_complete_; }
 
  private:
-  struct Free {
-    void operator()(void* context) const;
-  };
-
-  std::unique_ptr<void, Free> context_;
+  std::unique_ptr<ZSTD_DCtx_s, std::size_t (*)(ZSTD_DCtx_s*)> context_;
   bool is_complete_ = true;
 };
 

@@ -22,6 +22,9 @@ constexpr std::size_t chunk = std::size_t{1} << 16U;
 constexpr std::size_t buffer_size = LineReader::longest_line + 1 + chunk;
 
 constexpr const char* too_long = "line longer than 1 MiB";
+constexpr const char* lone_carriage_return =
+    "a carriage return within the line: lines end in LF or CR LF (from CR: tr '\\r' '\\n' <OLD "
+    ">NEW)";
 
 std::string last_system_error() { return std::generic_category().message(errno); }
 
@@ -166,6 +169,7 @@ bool LineReader::fill() {
   const std::size_t space = std::min(chunk, buffer_size - end_);
   const std::size_t count = read({buffer_.get() + end_, space});
   end_ += count;
+  taken_ += count;
   return count > 0;
 }
 

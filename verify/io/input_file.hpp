@@ -82,11 +82,14 @@ class LineReader {
   /// \pre bytes ≤ longest_line
   [[nodiscard]] std::string_view peek(std::size_t bytes);
 
-  /// Skips bytes that peek() has returned, which are whole lines.
+  /// Skips bytes that peek() has returned, which are so many whole lines.
   void skip(std::size_t bytes, std::uint64_t lines);
 
   /// The number of the last line that was read or skipped; 0 at the beginning.
   [[nodiscard]] std::uint64_t line_number() const { return line_number_; }
+
+  /// The number of bytes in front of what next() and peek() return.
+  [[nodiscard]] std::uint64_t offset() const { return taken_ - (end_ - begin_); }
 
   [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
   /// Fraction read so far, 0 to 1.
@@ -111,15 +114,11 @@ class LineReader {
   std::unique_ptr<char[]> buffer_;  // NOLINT(modernize-avoid-c-arrays): std::vector would fill it
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
+  std::uint64_t taken_ = 0;  ///< bytes that were put into the buffer
   std::uint64_t line_number_ = 0;
   std::optional<Line> ahead_;
   std::uint64_t blank_lines_ahead_ = 0;
 };
-
-/// Why a line with a carriage return that does not end it is refused.
-inline constexpr const char* lone_carriage_return =
-    "a carriage return within the line: lines end in LF or CR LF (from CR: tr '\\r' '\\n' <OLD "
-    ">NEW)";
 
 /// The text without the byte order mark of UTF-8 that it may begin with.
 /// \throws DatasetError naming the file if it begins with the mark of UTF-16.

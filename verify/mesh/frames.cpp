@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <compare>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -15,7 +15,6 @@
 
 #include "verify/data/npy.hpp"
 #include "verify/io/dataset_error.hpp"
-#include "verify/io/number_text.hpp"
 #include "verify/io/output_file.hpp"
 
 namespace touchstone::verify::mesh {
@@ -27,52 +26,19 @@ namespace fs = std::filesystem;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A number in a name: 0.d1d2… · 10^scale, without zeros at either end.
-struct NameNumber {
-  std::int64_t scale;
-  std::string digits;
-  auto operator<=>(const NameNumber&) const = default;
-};
-
-/// Takes the digits at the beginning of a text.
-std::string_view take_digits(std::string_view& text) {
-  const std::string_view digits =
-      text.substr(0, std::min(text.find_first_not_of("0123456789"), text.size()));
-  text.remove_prefix(digits.size());
-  return digits;
-}
-
 /// Takes a number, such as 12, 0.25 or 1e-3, which begins with a digit.
-NameNumber take_number(std::string_view& text) {
-  std::string digits(take_digits(text));
-  auto scale = static_cast<std::int64_t>(digits.size());
-  if (text.size() > 1 && text[0] == '.' && is_digit(text[1])) {
-    text.remove_prefix(1);
-    digits += take_digits(text);
-  }
-  if (!text.empty() && (text[0] == 'e' || text[0] == 'E')) {
-    std::string_view rest = text.substr(1);
-    const bool is_signed = !rest.empty() && (rest[0] == '-' || rest[0] == '+');
-    const bool is_negative = is_signed && rest[0] == '-';
-    if (is_signed) rest.remove_prefix(1);
-    const auto exponent = io::number_from_text<std::int32_t>(take_digits(rest));
-    if (exponent) {
-      scale += is_negative ? -*exponent : *exponent;
-      text = rest;
-    }
-  }
-  const std::size_t zeros = std::min(digits.find_first_not_of('0'), digits.size());
-  digits.erase(0, zeros);
-  digits.erase(digits.find_last_not_of('0') + 1);
-  if (digits.empty()) return {.scale = std::numeric_limits<std::int64_t>::min(), .digits = {}};
-  return {.scale = scale - static_cast<std::int64_t>(zeros), .digits = std::move(digits)};
+double take_number(std::string_view& text) {
+  double number = std::numeric_limits<double>::infinity();  // where it is out of range
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
+  return number;
 }
 
 /// Names in the order of the numbers in them: "2.ply" before "10.ply", "0.25.ply" before "0.5.ply".
 bool is_before(std::string_view a, std::string_view b) {
   while (!a.empty() && !b.empty()) {
     if (is_digit(a.front()) && is_digit(b.front())) {
-      const NameNumber x = take_number(a), y = take_number(b);
+      const double x = take_number(a), y = take_number(b);
       if (x != y) return x < y;
     } else {
       if (a.front() != b.front()) return a.front() < b.front();

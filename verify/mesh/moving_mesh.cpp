@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "fast/candidates.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/terminal.hpp"
@@ -24,25 +25,17 @@ MovingMesh read_step(const std::filesystem::path& before, const std::filesystem:
           .note = mesh.note};
 }
 
-std::vector<fast::IndexPair> find_candidates(const MovingMesh& mesh, Kind kind, int max_threads,
-                                             const Separation& separation,
-                                             const std::atomic<bool>* stop) {
-  const fast::BroadPhaseOptions options{
-      .separation = separation, .max_threads = max_threads, .stop = stop};
-  return kind == Kind::vertex_face
-             ? fast::vertex_face_candidates(mesh.vertices, mesh.faces, options)
-             : fast::edge_edge_candidates(mesh.vertices, mesh.edges, options);
-}
-
-fast::Candidates candidates_of(const MovingMesh& mesh, Kind kind,
-                               std::span<const fast::IndexPair> pairs) {
-  return {.kind = kind, .pairs = pairs, .edges = mesh.edges, .faces = mesh.faces};
-}
-
-std::vector<Query> queries_of(const MovingMesh& mesh, const fast::Candidates& candidates) {
+std::vector<Query> candidates_of(const MovingMesh& mesh, Kind kind, const Separation& separation,
+                                 const std::atomic<bool>* stop) {
+  const fast::BroadPhaseOptions options{.separation = separation, .stop = stop};
+  const std::vector<fast::IndexPair> pairs =
+      kind == Kind::vertex_face ? fast::vertex_face_candidates(mesh.vertices, mesh.faces, options)
+                                : fast::edge_edge_candidates(mesh.vertices, mesh.edges, options);
+  const fast::Candidates candidates{
+      .kind = kind, .pairs = pairs, .edges = mesh.edges, .faces = mesh.faces};
   std::vector<Query> queries;
-  queries.reserve(candidates.pairs.size());
-  for (const fast::IndexPair& pair : candidates.pairs) {
+  queries.reserve(pairs.size());
+  for (const fast::IndexPair& pair : pairs) {
     io::throw_if_interrupted();
     queries.push_back(fast::query_of(mesh.vertices, candidates, pair));
   }

@@ -6,11 +6,9 @@
 
 #include <atomic>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "fast/candidates.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 
@@ -31,20 +29,11 @@ struct MovingMesh {
 [[nodiscard]] MovingMesh read_step(const std::filesystem::path& before,
                                    const std::filesystem::path& after);
 
-/// The pairs that the broad phase finds, with all that come within the distance on every axis:
-/// enough for either norm. \param max_threads 0: all cores. \param stop As in the options of the
-/// broad phase.
-[[nodiscard]] std::vector<fast::IndexPair> find_candidates(const MovingMesh& mesh, Kind kind,
-                                                           int max_threads = 0,
-                                                           const Separation& separation = {},
-                                                           const std::atomic<bool>* stop = nullptr);
-
-/// Pairs of a kind with the arrays of their indices; refers to the mesh and to the pairs.
-[[nodiscard]] fast::Candidates candidates_of(const MovingMesh& mesh, Kind kind,
-                                             std::span<const fast::IndexPair> pairs);
-
-/// The candidates as queries, in their order. \throws io::Interrupted if the user interrupts.
-[[nodiscard]] std::vector<Query> queries_of(const MovingMesh& mesh,
-                                            const fast::Candidates& candidates);
+/// The pairs that the broad phase finds as queries, with all that come within the distance on every
+/// axis: enough for either norm. \param stop As in the options of the broad phase.
+/// \throws io::Interrupted if the user interrupts.
+[[nodiscard]] std::vector<Query> candidates_of(const MovingMesh& mesh, Kind kind,
+                                               const Separation& separation = {},
+                                               const std::atomic<bool>* stop = nullptr);
 
 }  // namespace touchstone::verify::mesh

@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <initializer_list>
 #include <limits>
 #include <optional>
@@ -91,46 +90,26 @@ auto with_type(Scalar type, const Use& use) {
 /// The file as lines and as bytes, with the position of errors.
 class Input {
  public:
-  explicit Input(const std::filesystem::path& path) : file_(path), buffer_(buffer_size) {}
+  explicit Input(const std::filesystem::path& path) : lines_(path) {}
 
   /// The next line without its end, valid until the next call; nothing at the end of the file.
   [[nodiscard]] std::optional<std::string_view> line() {
-    if (at_end()) return std::nullopt;
-    line_.clear();
-    ++line_number_;
-    for (bool complete = false; !complete && !at_end();) {
-      const auto rest = std::span(buffer_).subspan(begin_, end_ - begin_);
-      const auto newline = std::ranges::find(rest, '\n');
-      complete = newline != rest.end();
-      line_.append(rest.begin(), newline);
-      begin_ += static_cast<std::size_t>(newline - rest.begin()) + (complete ? 1 : 0);
-      if (line_.size() > io::LineReader::longest_line) fail("line too long");
-    }
-    std::string_view text = line_;
-    if (line_number_ == 1) text = io::without_byte_order_mark(text, file_.path());
-    if (text.ends_with('\r')) text.remove_suffix(1);
-    if (text.find('\r') != std::string_view::npos) fail(io::lone_carriage_return);
-    return text;
+    const auto line = lines_.next();
+    if (!line) return std::nullopt;
+    line_number_ = line->number;
+    return line->text;
   }
 
   /// Fills the bytes, or fails if there are not as many left.
   void read(std::span<char> bytes) {
-    while (!bytes.empty()) {
-      if (at_end()) fail_at_end();
-      const std::size_t count = std::min(bytes.size(), end_ - begin_);
-      std::memcpy(bytes.data(), buffer_.data() + begin_, count);
-      begin_ += count;
-      bytes = bytes.subspan(count);
-    }
+    const std::string_view there = lines_.peek(bytes.size());
+    if (there.size() < bytes.size()) fail_at_end();
+    std::ranges::copy(there.substr(0, bytes.size()), bytes.begin());
+    lines_.skip(bytes.size(), 0);
   }
 
-  [[nodiscard]] bool at_end() {
-    if (begin_ < end_) return false;
-    offset_ += end_;
-    begin_ = 0;
-    end_ = file_.read(buffer_);
-    return end_ == 0;
-  }
+  /// True if there are no more bytes.
+  [[nodiscard]] bool at_end() { return lines_.peek(1).empty(); }
 
   /// From here on the file has no lines.
   void begin_binary() { binary_ = true; }
@@ -139,7 +118,7 @@ class Input {
   void begin_element(std::string_view name, std::uint64_t number) {
     element_ = name;
     number_ = number;
-    element_offset_ = offset_ + begin_;
+    element_offset_ = lines_.offset();
   }
   void end_elements() { begin_element({}, 0); }
 
@@ -148,20 +127,13 @@ class Input {
     if (!element_.empty()) place = std::string(element_) + " " + std::to_string(number_);
     if (binary_)
       place += (place.empty() ? "" : " at ") + ("byte " + std::to_string(element_offset_));
-    throw io::DatasetError(file_.path(), {.line = binary_ ? 0 : line_number_},
+    throw io::DatasetError(lines_.path(), {.line = binary_ ? 0 : line_number_},
                            place.empty() ? reason : place + ": " + reason);
   }
   [[noreturn]] void fail_at_end() const { fail("the file ends early"); }
 
  private:
-  static constexpr std::size_t buffer_size = std::size_t{1} << 16U;
-
-  io::InputFile file_;
-  std::vector<char> buffer_;
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
-  std::uint64_t offset_ = 0;  // of the buffer in the file
-  std::string line_;
+  io::LineReader lines_;
   std::uint64_t line_number_ = 0;
   bool binary_ = false;
   std::string_view element_;

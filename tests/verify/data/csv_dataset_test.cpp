@@ -47,65 +47,47 @@ Survivors survivors(const std::string& text) {
   return read_survivors(folder.file("a.csv", text), folder.path(), vertex_face());
 }
 
-/// The replacement of line 12, the fourth of query 1, and its error.
-struct Fault {
-  std::string line;
-  std::string error;
-};
-
-TEST(CsvDataset, AFaultIsLocatedAndCostsItsQueryOnly) {
-  const std::vector<Fault> faults{
-      {"1,0,2,1,3,1,1", "12:2: zero denominator"},
-      {"1,1,2,1,3,0,1", "12:6: zero denominator"},
-      {"1,1,x,1,3,1,1", "12:3: not a number: \"x\""},
-      {"1,1,2,1,,1,1", "12:5: not a number: \"\""},
-      {"1,1,2,1,0.1,1,1", "12:5: not exactly a double (--round takes the nearest)"},
-      {"1,1,2,1,1" + std::string(400, '0') + ",1,1", "12:5: beyond the range of double"},
-      {"1,1,2,1,3,1,2", "12:7: label must be 0 or 1: \"2\""},
-      {"1,1,2,1,3,1,", "12:7: label must be 0 or 1: \"\""},
-      {"1,1,2,1,3,1,true", "12:7: label must be 0 or 1: \"true\""}};
-  for (const auto& [line, error] : faults) {
-    std::vector<std::string> lines = numbered_lines(3, true);
-    lines[11] = line;
-    EXPECT_EQ(strict_error(joined(lines)), error);
-    const Survivors kept = survivors(joined(lines));
-    expect_numbered(kept.records, {0, 2});
-    EXPECT_EQ(kept.skipped, 1U);
-    EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:" + error});
-    for (const RecordedQuery& record : kept.records) EXPECT_FALSE(record.collides.value());
-  }
-}
-
 const std::string rest_is_left_out =
     "; the rest of the file is left out, since it is unknown from here on which eight rows are a "
     "query: mend this line";
 
-/// Rows cannot be counted behind a line that is none, instead of line 12 or in addition to it: no
-/// further query is read, neither that of the line nor one made of later rows.
-TEST(CsvDataset, ALineThatIsNoRowEndsTheFile) {
-  const std::vector<Fault> faults{
-      {"1,1,2,1,3,1,0", "12:7: label differs from that of the query's first row"},
-      {"1,1,2,1,3,1", "12: 6 columns, expected 7 as before"},
-      {"1,1,2,1,3,1,1,1", "12: 8 columns, expected 7 as before"},
-      {"1", "12: 1 columns, expected 7 as before"},
-      {"", "12: blank line inside a query"},
-      {" \t", "12: blank line inside a query"},
-      {"xn,xd,yn,yd,zn,zd,label", "12: no number in the line"},
-      {",,,,,,", "12: no number in the line"},
-      {"1,1,2,1,3,1,\"1", "12:7: malformed quoted field"},
-      {"1,1,2,\"1\"1,3,1,1", "12:4: malformed quoted field"}};
-  for (const auto& [line, reason] : faults) {
-    for (const bool in_addition : {false, true}) {
-      std::vector<std::string> lines = numbered_lines(5, true);
-      if (in_addition) lines.insert(lines.begin() + 11, "");
-      lines[11] = line;
-      const std::string error = reason + rest_is_left_out;
-      EXPECT_EQ(strict_error(joined(lines)), error);
-      const Survivors kept = survivors(joined(lines));
-      expect_numbered(kept.records, {0});
-      EXPECT_EQ(kept.skipped, 1U);
-      EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:" + error});
-    }
+/// A line instead of line 12, the fourth of query 1, and its error.
+struct Fault {
+  std::string line;
+  std::string error;
+  /// True if the line is a row: then it costs its query only. Behind a line that is none rows
+  /// cannot be counted, so that no further query is read.
+  bool is_row = true;
+};
+
+TEST(CsvDataset, AFaultIsLocatedAndCostsItsQueryOrTheRestOfTheFile) {
+  for (const auto& [line, error, is_row] : std::vector<Fault>{
+           {"1,0,2,1,3,1,1", "12:2: zero denominator"},
+           {"1,1,2,1,3,0,1", "12:6: zero denominator"},
+           {"1,1,x,1,3,1,1", "12:3: not a number: \"x\""},
+           {"1,1,2,1,,1,1", "12:5: not a number: \"\""},
+           {"1,1,2,1,0.1,1,1", "12:5: not exactly a double (--round takes the nearest)"},
+           {"1,1,2,1,1" + std::string(400, '0') + ",1,1", "12:5: beyond the range of double"},
+           {"1,1,2,1,3,1,2", "12:7: label must be 0 or 1: \"2\""},
+           {"1,1,2,1,3,1,true", "12:7: label must be 0 or 1: \"true\""},
+           {"1,1,2,1,3,1,0", "12:7: label differs from that of the query's first row", false},
+           {"1,1,2,1,3,1", "12: 6 columns, expected 7 as before", false},
+           {"1,1,2,1,3,1,1,1", "12: 8 columns, expected 7 as before", false},
+           {"", "12: blank line inside a query", false},
+           {" \t", "12: blank line inside a query", false},
+           {"xn,xd,yn,yd,zn,zd,label", "12: no number in the line", false},
+           {",,,,,,", "12: no number in the line", false},
+           {"1,1,2,1,3,1,\"1", "12:7: malformed quoted field", false},
+           {"1,1,2,\"1\"1,3,1,1", "12:4: malformed quoted field", false}}) {
+    const std::string whole = error + (is_row ? "" : rest_is_left_out);
+    std::vector<std::string> lines = numbered_lines(3, true);
+    lines[11] = line;
+    EXPECT_EQ(strict_error(joined(lines)), whole);
+    const Survivors kept = survivors(joined(lines));
+    expect_numbered(kept.records,
+                    is_row ? std::vector<std::uint64_t>{0, 2} : std::vector<std::uint64_t>{0});
+    EXPECT_EQ(kept.skipped, 1U);
+    EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:" + whole});
   }
 }
 
@@ -205,31 +187,6 @@ TEST(CsvDataset, RoundsOnlyWhereAskedAndCounts) {
   EXPECT_EQ(strict_error(joined(lines)), "4:1: not exactly a double (--round takes the nearest)");
 }
 
-TEST(CsvDataset, ProgressRisesToOne) {
-  const TemporaryFolder folder;
-  CsvDataset source(folder.file("a.csv", joined(numbered_lines(5000, true))), vertex_face());
-  double last = source.progress();
-  EXPECT_LT(last, 0.5);
-  while (source.next()) {
-    EXPECT_GE(source.progress(), last);
-    last = source.progress();
-  }
-  EXPECT_EQ(source.progress(), 1.0);
-}
-
-TEST(CsvWriter, WritesThe2021FormatToTheByte) {
-  const TemporaryFolder folder;
-  CsvWriter writer(folder.path() / "a.csv");
-  Query query{};
-  query.at(0, 0, 0) = 0.5;
-  query.at(1, 3, 2) = -3.0;
-  writer.write({Kind::vertex_face, query}, true);
-  writer.close();
-  std::string expected = "1,2,0,1,0,1,1\n";
-  for (int row = 1; row < 7; ++row) expected += "0,1,0,1,0,1,1\n";
-  EXPECT_EQ(contents(folder.path() / "a.csv"), expected + "0,1,0,1,-3,1,1\n");
-}
-
 // ---- Every shape, in CSV and NumPy --------------------------------------------------------------
 
 /// A shape and the line and the extents that files have of it.
@@ -294,14 +251,15 @@ TEST(CurvedCsv, IsReadInEveryShapeAndFormatOfNumbers) {
   for (const ShapeCase& of : all) {
     for (const bool fractions : {false, true}) {
       for (const bool labels : {false, true}) {
+        const std::string text = of.line + "\n" + numbered_text(of.shape, 3, fractions, labels);
         const TemporaryFolder folder;
-        const std::string text = numbered_text(of.shape, 3, fractions, labels);
-        const auto source = open_dataset(folder.file("a_ee.csv", of.line + "\n" + text));
+        const auto source = open_dataset(folder.file("a_ee.csv", text));
         EXPECT_EQ(source->shape(), of.shape);
         const auto records = read_all(*source);
         expect_numbered(records, {0, 1, 2}, of.shape);
-        EXPECT_EQ(records.at(0).collides, labels ? std::optional(false) : std::nullopt);
-        EXPECT_EQ(records.at(1).collides, labels ? std::optional(true) : std::nullopt);
+        for (const RecordedQuery& record : records) {
+          EXPECT_EQ(record.collides, labels ? std::optional(record.index == 1) : std::nullopt);
+        }
       }
     }
   }
@@ -320,6 +278,8 @@ TEST(CurvedCsv, NamesItsFaultyLines) {
            {"rational,-1\n", "1:2" + whole + "\"-1\""},
            {"degree,\n", "1:2" + whole + "\"\""},
            {"degree,2\n", " no queries"},
+           {"rational,1\n1,2,3,0\n" + rows, "2:4: a weight must be positive"},
+           {"rational,1\n1,2,3,-1\n" + rows, "2:4: a weight must be positive"},
            {"rational,2\n1,2,3\n", "2: 3 columns, expected 4, 5, 8 or 9" + lost},
            {"rational,2\n" + rows + "degree,2\n", "14: 2 columns, expected 4 as before" + lost}}) {
     EXPECT_EQ(strict_error(text), error);
@@ -329,37 +289,29 @@ TEST(CurvedCsv, NamesItsFaultyLines) {
   }
 }
 
-TEST(CurvedCsv, SkipsAQueryWithAnInvalidNumberOrWeight) {
-  const std::string good = numbered_text(weighted.shape, 1, false, false);
-  std::string rest;
-  for (int i = 0; i < 7; ++i) rest += "1,2,3,1\n";
-  for (const auto& [row, fault] : {std::pair{"1,2,3,0", ":4: a weight must be positive"},
-                                   std::pair{"1,2,3,-1", ":4: a weight must be positive"},
-                                   std::pair{"1,2,x,1", ":3: not a number: \"x\""}}) {
-    const Survivors kept = survivors("rational,1\n" + good + row + "\n" + rest + good);
-    EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:10" + std::string(fault)});
-    expect_numbered({kept.records.front()}, {0}, weighted.shape);
-    EXPECT_EQ(kept.records.back().index, 2U);
-  }
-}
-
-TEST(CurvedCsv, IsReadBackAsItWasWritten) {
+TEST(Curved, AreReadBackAsTheyWereWritten) {
   for (const ShapeCase& of : all) {
     const TemporaryFolder folder;
-    const auto path = folder.path() / "a_ee.csv";
+    const auto path = folder.path() / "a_ee.csv", array = folder.path() / "a_ee.npy";
     CsvWriter writer(path);
-    for (std::size_t i = 0; i < 3; ++i) writer.write(numbered(of.shape, i), i % 2 == 1);
+    NpyWriter array_writer(array, of.shape);
+    for (std::size_t i = 0; i < 600; ++i) {
+      writer.write(numbered(of.shape, i), i % 2 == 1);
+      array_writer.write(numbered(of.shape, i).numbers());
+    }
+    std::vector<double> infinite(of.shape.numbers_of_query(), HUGE_VAL);
+    EXPECT_THROW(writer.write({of.shape, infinite}, true), std::invalid_argument);
+    EXPECT_THROW(array_writer.write(infinite), std::invalid_argument);
     writer.close();
+    array_writer.close();
     const std::string line = of.shape.is_straight() ? "" : of.line + "\n";
     EXPECT_TRUE(contents(path).starts_with(line + "0,1,1,4,1,2,"));
-    const auto records = read_all(*open_dataset(path));
-    expect_numbered(records, {0, 1, 2}, of.shape);
-    EXPECT_EQ(records[1].collides, std::optional(true));
+    for (const auto& file : {path, array}) {
+      expect_numbered(read_all(*open_dataset(file)), indices_up_to(600), of.shape);
+    }
+    EXPECT_EQ(read_all(*open_dataset(path))[1].collides, std::optional(true));
     const std::string rows = csv_rows(numbered(of.shape, 0), std::nullopt);
-    EXPECT_TRUE(rows.starts_with(line));
-    expect_numbered(read_all(*open_dataset(folder.file("b_ee.csv", rows))), {0}, of.shape);
-    const auto twice = read_all(*open_dataset(folder.file("c_ee.csv", rows + rows)));
-    EXPECT_EQ(twice.size(), 2U);
+    EXPECT_EQ(read_all(*open_dataset(folder.file("b_ee.csv", rows + rows))).size(), 2U);
   }
 }
 
@@ -400,42 +352,28 @@ TEST(CurvedNpy, IsReadInEveryShapeAndFromArchivesWithLabels) {
             "c_ee.npz: collides: shape (600), expected (3)");
 }
 
-TEST(CurvedNpy, IsReadBackAsItWasWritten) {
-  for (const ShapeCase& of : all) {
-    const TemporaryFolder folder;
-    const auto path = folder.path() / "a_ee.npy";
-    NpyWriter writer(path, of.shape);
-    for (std::size_t i = 0; i < 600; ++i) writer.write(numbered(of.shape, i).numbers());
-    std::vector<double> infinite(of.shape.numbers_of_query(), HUGE_VAL);
-    EXPECT_THROW(writer.write(infinite), std::invalid_argument);
-    writer.close();
-    EXPECT_EQ(NpyArray(path).shape().size(), of.shape.is_straight() ? 3U : 4U);
-    expect_numbered(read_all(*open_dataset(path)), indices_up_to(600), of.shape);
-  }
-}
-
 TEST(CurvedNpy, SkipsAQueryWithAnInvalidNumberOrWeight) {
-  const auto expect_skipped = [](std::vector<double> numbers, std::vector<std::uint64_t> extents,
-                                 const std::string& fault) {
+  struct Case {
+    std::size_t place;  ///< in query 1
+    double number;
+    std::vector<std::uint64_t> extents;
+    std::string fault;
+  };
+  const std::vector<std::uint64_t> lines{3, 8, 3}, curves{3, 2, 4, 4};
+  for (const auto& [place, number, extents, fault] :
+       std::vector<Case>{{0, std::nan(""), lines, "point 0, x: not finite"},
+                         {13, HUGE_VAL, lines, "point 4, y: not finite"},
+                         {23, -HUGE_VAL, lines, "point 7, z: not finite"},
+                         {3, std::nan(""), curves, "point 0, weight: not positive and finite"},
+                         {15, 0.0, curves, "point 3, weight: not positive and finite"},
+                         {15, HUGE_VAL, curves, "point 3, weight: not positive and finite"}}) {
+    std::vector<double> numbers(extents == lines ? 72 : 96, 1.0);
+    numbers[numbers.size() / 3 + place] = number;
     const TemporaryFolder folder;
     const Survivors kept = read_survivors(
         folder.file("a_ee.npy", tests::array("<f8", extents, numbers)), folder.path());
     EXPECT_EQ(kept.messages, std::vector<std::string>{"a_ee.npy: query 1, " + fault});
     EXPECT_EQ(kept.records.size(), 2U);
-  };
-  for (std::size_t i = 0; i < 24; ++i) {
-    std::vector<double> numbers(72, 1.0);
-    numbers[24 + i] = std::array{std::nan(""), HUGE_VAL, -HUGE_VAL}.at(i % 3);
-    expect_skipped(numbers, {3, 8, 3},
-                   "point " + std::to_string(i / 3) + ", " + "xyz"[i % 3] + ": not finite");
-  }
-  for (const auto& [place, value, point] :
-       {std::tuple{std::size_t{3}, std::nan(""), "0"}, std::tuple{std::size_t{15}, 0.0, "3"},
-        std::tuple{std::size_t{15}, HUGE_VAL, "3"}}) {
-    std::vector<double> numbers(96, 1.0);
-    numbers[32 + place] = value;
-    expect_skipped(numbers, {3, 2, 4, 4},
-                   std::string("point ") + point + ", weight: not positive and finite");
   }
 }
 

@@ -3,32 +3,22 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <array>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <limits>
 #include <optional>
-#include <random>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "tests/support/memory_source.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/verify/data/dataset_fixture.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/dataset_source.hpp"
-#include "verify/data/npy_dataset.hpp"
-#include "verify/data/query_group.hpp"
 
 namespace touchstone::verify::data::dataset_test {
 namespace {
 
 namespace fs = std::filesystem;
-using Limits = std::numeric_limits<double>;
 using test::error_of;
 using test::expect_numbered;
 using test::joined;
@@ -180,60 +170,6 @@ TEST(OpenDataset, OpeningErrorsThrowEvenIfItKeepsGoing) {
                   .ends_with("pass --kind vertex-face or --kind edge-edge"));
 }
 
-/// The peak of resident bytes, of the process or since the last reset.
-std::size_t peak_resident() {
-  std::ifstream status("/proc/self/status");
-  std::string line;
-  while (std::getline(status, line) && !line.starts_with("VmHWM:")) continue;
-  return 1024 * std::stoull(line.substr(6));
-}
-
-/// The rise of the peak above its present height, in bytes, during a call. getrusage's peak never
-/// falls, so an earlier test could hide the rise; this one is reset.
-template <class Action>
-std::size_t resident_growth(const Action& action) {
-  std::ofstream("/proc/self/clear_refs") << "5";
-  const std::size_t before = peak_resident();
-  action();
-  return peak_resident() - before;
-}
-
-/// Writes this query so many times, and reads it as a stream. What is not finite is refused, and
-/// the writer stays usable.
-template <class Writer, class Write>
-void expect_streamed(const fs::path& path, std::size_t count, const Write& write) {
-  Query query{}, bad{};
-  for (double& x : query.coordinates) x = 0x1.fffffffffffffp-11;
-  Writer writer(path);
-  for (const double x : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
-    bad.at(1, 3, 2) = x;
-    EXPECT_THROW(write(writer, bad), std::invalid_argument);
-  }
-  for (std::size_t i = 0; i < count; ++i) write(writer, query);
-  writer.close();
-  ASSERT_GT(fs::file_size(path), 40'000'000U);
-  const std::size_t streamed = resident_growth([&] {
-    const auto source = open_dataset(path);
-    std::size_t read = 0;
-    while (source->next()) ++read;
-    EXPECT_EQ(read, count);
-  });
-  EXPECT_LT(streamed, 8'000'000U);
-  const std::size_t whole =
-      resident_growth([&] { EXPECT_EQ(test::contents(path).size(), fs::file_size(path)); });
-  EXPECT_GT(whole, 30'000'000U) << "the measure must see a reader that keeps the file";
-}
-
-TEST(WrittenDataset, TakesMemoryThatDoesNotGrowWithTheFile) {
-  const TemporaryFolder folder;
-  expect_streamed<CsvWriter>(folder.path() / "a_vf.csv", 50'000,
-                             [](CsvWriter& writer, const Query& query) {
-                               writer.write({Kind::vertex_face, query}, true);
-                             });
-  expect_streamed<NpyWriter>(folder.path() / "a_vf.npy", 250'000,
-                             [](NpyWriter& writer, const Query& query) { writer.write(query); });
-}
-
 /// What its labels and times are is in certify_test.cpp.
 TEST(PublicData, WritingAHandcraftedFileAgainGivesTheSameBytes) {
   const fs::path folder = tests::public_data_folder();
@@ -283,19 +219,6 @@ struct Scene {
   }
 };
 
-TEST(DatasetSource, JoinsQueriesWithTheirCompanions) {
-  const Survivors kept =
-      Scene{.labels = "[true,false,true]", .tois = "query,toi\n0,0.5\n2,1\n"}.read();
-  expect_numbered(kept.records, {0, 1, 2});
-  EXPECT_EQ(kept.skipped, 0U);
-  EXPECT_EQ(kept.records[0].collides, std::optional(true));
-  EXPECT_EQ(kept.records[1].collides, std::optional(false));
-  EXPECT_EQ(kept.records[2].collides, std::optional(true));
-  EXPECT_EQ(kept.records[0].toi, exact::Rational(1, 2));
-  EXPECT_EQ(kept.records[1].toi, std::nullopt);
-  EXPECT_EQ(kept.records[2].toi, exact::Rational(1));
-}
-
 TEST(DatasetSource, ASkippedQueryDoesNotShiftTheTruthOfTheOthers) {
   Scene scene{.labels = "[true,false,true]", .tois = "query,toi\n0,0.5\n1,0.25\n2,1\n"};
   scene.lines[8] = "bad,1,1,1,1,1";
@@ -343,43 +266,6 @@ TEST(DatasetSource, CompanionsThatCannotBeOpenedThrowEvenIfItKeepsGoing) {
     const auto path = scene.make();
     EXPECT_THROW((void)open_dataset(path, {.keep_going = true}), io::DatasetError);
   }
-}
-
-// ---- Groups of queries --------------------------------------------------------------------------
-
-Query query_number(double number) {
-  Query query{};
-  query.coordinates[0] = number;
-  return query;
-}
-
-/// Queries with these indices, each with its index as first coordinate.
-std::vector<RecordedQuery> recorded(const std::vector<std::uint64_t>& indices) {
-  std::vector<RecordedQuery> queries;
-  queries.reserve(indices.size());
-  for (const std::uint64_t index : indices) {
-    queries.push_back(
-        {{Kind::edge_edge, query_number(static_cast<double>(index))}, index, std::nullopt, {}});
-  }
-  return queries;
-}
-
-void read(QueryGroup& group, QuerySource& source) {
-  group.read(
-      source, [](double) {}, [] { return false; });
-}
-
-TEST(QueryGroup, HasTheQueriesOfItsSourcesInTheirOrder) {
-  tests::MemorySource first(Kind::edge_edge, recorded({0, 1, 4, 5}));
-  tests::MemorySource second(Kind::edge_edge, recorded({0, 7}));
-  QueryGroup group("both", Kind::edge_edge);
-  read(group, first);
-  read(group, second);
-  EXPECT_EQ(group.name(), "both");
-  EXPECT_EQ(group.kind(), Kind::edge_edge);
-  ASSERT_EQ(group.queries().size(), 6U);
-  constexpr std::array<double, 6> indices{0, 1, 4, 5, 0, 7};
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(group.queries().row(i)[0], indices.at(i)) << i;
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "tests/support/trials.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/oracle.hpp"
+#include "verify/data/query_group.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random_stream.hpp"
 

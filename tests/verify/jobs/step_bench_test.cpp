@@ -30,9 +30,9 @@ struct Expected {
 };
 
 Expected expected(const mesh::MovingMesh& mesh, Kind kind) {
-  const auto pairs = mesh::find_candidates(mesh, kind);
-  Expected all{.candidates = pairs.size()};
-  for (const Query& query : mesh::queries_of(mesh, mesh::candidates_of(mesh, kind, pairs))) {
+  const std::vector<Query> candidates = mesh::candidates_of(mesh, kind);
+  Expected all{.candidates = candidates.size()};
+  for (const Query& query : candidates) {
     const exact::Decision verdict = exact::decide(kind, query);
     if (!verdict.collides()) continue;
     ++all.collisions;

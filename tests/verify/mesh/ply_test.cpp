@@ -233,7 +233,7 @@ TEST(ReadPly, NamesWhatIsWrongWithAHeader) {
       {"ply\nformat text 1.0\n", "2: malformed header at \"text\""},
       {"ply\nformat ascii 2.0\n", "2: malformed header at \"2.0\""},
       {ascii + ascii.substr(4), "3: malformed header at \"ascii\""},
-      {ascii + "\n", "3: malformed header at \"\""},
+      {ascii + "\nend_header\n", "3: malformed header at \"\""},
       {ascii + "element vertex\n", "3: malformed header at \"\""},
       {ascii + "element vertex 18446744073709551616\n",
        "3: malformed header at \"18446744073709551616\""},
@@ -257,7 +257,7 @@ TEST(ReadPly, NamesWhatIsWrongWithAHeader) {
        "9: face: vertex_index must be of a whole type"},
       {vertices + "element edge 1\nproperty int vertex1\nend_header\n",
        "9: edge has no property vertex2"},
-      {"ply\ncomment " + std::string(2'000'000, 'x'), "2: line too long"}};
+      {"ply\ncomment " + std::string(2'000'000, 'x'), "2: line longer than 1 MiB"}};
   for (const auto& [text, says] : headers) EXPECT_EQ(error(text), "a.ply:" + says);
 }
 
