@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "touchstone/query.hpp"
 #include "verify/data/npy.hpp"
@@ -24,8 +23,7 @@ class Recorder {
 
   void add(Kind kind, const Query& query);
 
-  /// Writes the rest, and renames the files. \throws verify::io::DatasetError if it cannot be
-  /// written.
+  /// Gives the files their names. \throws verify::io::DatasetError if they cannot be written.
   void close();
 
   [[nodiscard]] std::uint64_t queries(Kind kind) const { return file(kind).queries; }
@@ -34,13 +32,10 @@ class Recorder {
  private:
   /// The queries of one kind.
   struct File {
-    File(Kind kind, const std::filesystem::path& folder, const std::string& name);
-    void write_pending();
+    File(const std::filesystem::path& folder, const std::string& name);
 
-    Kind kind;
     verify::data::NpyWriter npy;
     verify::io::OutputFile labels;
-    std::vector<Query> pending;
     std::uint64_t queries = 0, collisions = 0;
   };
 

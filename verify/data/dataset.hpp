@@ -2,15 +2,8 @@
 
 /// \file
 /// Recorded queries on disk: finding the files, determining their kind, opening them as
-/// streams.
-///
-/// Formats: CSV, also compressed by zstd, with eight rows for each query, each x, y and z as
-/// numbers or as numerator and denominator, and optionally a label (csv_dataset.hpp); NumPy arrays
-/// of shape (N, 8, 3), alone or in an archive (npy_dataset.hpp); eight vertices of an OBJ file for
-/// each query (obj_dataset.hpp). CSV and NumPy arrays also have queries on curves, all of the same
-/// degree in a file: with a first line `degree,K` or `rational,K` and 4 (K+1) rows a query, or of
-/// shape (N, K+1, 4, 3), or (N, K+1, 4, 4) with weights. Labels and times of impact may be in
-/// separate files beside either (ground_truth_files.hpp).
+/// streams, in the formats of csv_dataset.hpp (also compressed by zstd), npy_dataset.hpp and
+/// obj_dataset.hpp. Labels and times of impact may be in separate files (ground_truth_files.hpp).
 
 #include <filesystem>
 #include <functional>

@@ -23,18 +23,14 @@ DatasetSource::DatasetSource(const std::filesystem::path& path, DatasetOptions o
 
 std::optional<RecordedQuery> DatasetSource::next() {
   while (!ended_) {
-    std::optional<io::DatasetError> fault;
     try {
-      std::optional<RecordedQuery> record = read_record();
-      if (record) return record;
+      if (auto record = read_record()) return record;
       ended_ = true;
-    } catch (const io::DatasetError& error) {
-      fault = error;
-    }
-    if (fault) {
-      skip(*fault);
-    } else {
-      finish();
+      ground_truth_files_.end(count_);  // They must not have more entries than there are queries.
+    } catch (const io::DatasetError& fault) {
+      if (!options_.keep_going) throw;
+      ++skipped_;
+      if (options_.on_skip) options_.on_skip(fault);
     }
   }
   return std::nullopt;
@@ -72,21 +68,6 @@ void DatasetSource::require_valid(const base::AnyQuery& query, std::uint64_t ind
 void DatasetSource::give_up(const io::DatasetError& fault) {
   ended_ = true;
   throw io::DatasetError(fault);
-}
-
-/// Ground truth files must not have more entries than there are queries.
-void DatasetSource::finish() {
-  try {
-    ground_truth_files_.end(count_);
-  } catch (const io::DatasetError& fault) {
-    skip(fault);
-  }
-}
-
-void DatasetSource::skip(const io::DatasetError& fault) {
-  if (!options_.keep_going) throw fault;
-  ++skipped_;
-  if (options_.on_skip) options_.on_skip(fault);
 }
 
 }  // namespace touchstone::verify::data

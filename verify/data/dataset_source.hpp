@@ -65,8 +65,6 @@ class DatasetSource : public QuerySource {
   [[nodiscard]] virtual StoredQuery read(std::uint64_t index) = 0;
 
   [[nodiscard]] std::optional<RecordedQuery> read_record();
-  void finish();
-  void skip(const io::DatasetError& fault);
 
   std::filesystem::path path_;
   std::string name_;

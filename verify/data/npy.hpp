@@ -3,10 +3,8 @@
 /// \file
 /// Arrays in NumPy's format: .npy files, and the members of .npz archives.
 ///
-/// Queries are an array of float64 or float32 of shape (N, 8, 3), or on curves (N, K+1, 4, 3 or 4).
 /// An array of float64 in C order has the layout of N consecutive Query objects, or of Queries: its
-/// bytes *are* the queries, without parsing. NpyWriter writes this form. An array of no queries,
-/// shape (0, 8, 3), is valid.
+/// bytes *are* the queries, without parsing. NpyWriter writes this form.
 
 #include <algorithm>
 #include <array>

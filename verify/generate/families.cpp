@@ -14,27 +14,10 @@ namespace touchstone::verify::generate {
 
 namespace {
 
-void append(std::vector<Definition>& list, std::span<const Definition> more) {
-  list.insert(list.end(), more.begin(), more.end());
-}
-
-std::vector<Definition> collect_base() {
-  std::vector<Definition> list;
-  append(list, dyadic_definitions());
-  append(list, endpoint_definitions());
-  append(list, silhouette_definitions());
-  append(list, degenerate_definitions());
-  append(list, coplanar_definitions());
-  append(list, product_definitions());
-  append(list, tangential_definitions());
-  append(list, published_definitions());
-  return list;
-}
-
 std::span<const Definition> all_definitions() {
   static const std::vector<Definition> all = [] {
-    std::vector<Definition> list = collect_base();
-    append(list, scaled_definitions());
+    std::vector<Definition> list(base_definitions().begin(), base_definitions().end());
+    list.insert(list.end(), scaled_definitions().begin(), scaled_definitions().end());
     return list;
   }();
   return all;
@@ -141,7 +124,15 @@ DrawnSet set_of(const Family& family, Kind kind, const Separation& separation) {
 }  // namespace
 
 std::span<const Definition> base_definitions() {
-  static const std::vector<Definition> base = collect_base();
+  static const std::vector<Definition> base = [] {
+    std::vector<Definition> list;
+    for (const auto part : {dyadic_definitions(), endpoint_definitions(), silhouette_definitions(),
+                            degenerate_definitions(), coplanar_definitions(), product_definitions(),
+                            tangential_definitions(), published_definitions()}) {
+      list.insert(list.end(), part.begin(), part.end());
+    }
+    return list;
+  }();
   return base;
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "touchstone/query.hpp"
@@ -24,7 +25,9 @@ namespace {
 
 enum class Format : std::uint8_t { ascii, little_endian, big_endian };
 
-enum class Scalar : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+/// The type of a number: that of the alternative.
+using Scalar = std::variant<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
+                            std::uint32_t, float, double>;
 
 /// A value of a property, or of a list of them.
 struct Property {
@@ -47,44 +50,24 @@ struct Header {
 std::optional<Scalar> scalar_from_name(std::string_view name) {
   struct Names {
     std::string_view name, sized_name;
+    Scalar type;
   };
-  static constexpr std::array<Names, 8> names{{{"char", "int8"},
-                                               {"uchar", "uint8"},
-                                               {"short", "int16"},
-                                               {"ushort", "uint16"},
-                                               {"int", "int32"},
-                                               {"uint", "uint32"},
-                                               {"float", "float32"},
-                                               {"double", "float64"}}};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (name == names[i].name || name == names[i].sized_name) return static_cast<Scalar>(i);
+  static constexpr std::array<Names, 8> names{{{"char", "int8", std::int8_t{}},
+                                               {"uchar", "uint8", std::uint8_t{}},
+                                               {"short", "int16", std::int16_t{}},
+                                               {"ushort", "uint16", std::uint16_t{}},
+                                               {"int", "int32", std::int32_t{}},
+                                               {"uint", "uint32", std::uint32_t{}},
+                                               {"float", "float32", float{}},
+                                               {"double", "float64", double{}}}};
+  for (const Names& one : names) {
+    if (name == one.name || name == one.sized_name) return one.type;
   }
   return std::nullopt;
 }
 
-bool is_whole(Scalar type) { return type != Scalar::float32 && type != Scalar::float64; }
-
-/// Calls use(Number{}) with a number of that type.
-template <class Use>
-auto with_type(Scalar type, const Use& use) {
-  switch (type) {
-    case Scalar::int8:
-      return use(std::int8_t{});
-    case Scalar::uint8:
-      return use(std::uint8_t{});
-    case Scalar::int16:
-      return use(std::int16_t{});
-    case Scalar::uint16:
-      return use(std::uint16_t{});
-    case Scalar::int32:
-      return use(std::int32_t{});
-    case Scalar::uint32:
-      return use(std::uint32_t{});
-    case Scalar::float32:
-      return use(float{});
-    default:
-      return use(double{});
-  }
+bool is_whole(Scalar type) {
+  return !std::holds_alternative<float>(type) && !std::holds_alternative<double>(type);
 }
 
 /// The file as lines and as bytes, with the position of errors.
@@ -239,11 +222,11 @@ class TextValues {
   /// The element's next value; every type fits into a double.
   double next(Scalar type) {
     if (word_.empty()) input_.fail("too few values");
-    const auto value = with_type(type, [this](auto number) -> std::optional<double> {
+    const auto parse = [this](auto number) -> std::optional<double> {
       const auto parsed = io::number_from_text<decltype(number)>(word_);
-      if (!parsed) return std::nullopt;
-      return static_cast<double>(*parsed);
-    });
+      return parsed ? std::optional(static_cast<double>(*parsed)) : std::nullopt;
+    };
+    const auto value = std::visit(parse, type);
     if (!value) input_.fail(io::quote(word_) + " is not a number of the property's type");
     word_ = io::take_word(rest_);
     return *value;
@@ -277,12 +260,13 @@ class BinaryValues {
   void begin() { input_.begin_binary(); }
 
   double next(Scalar type) {
-    return with_type(type, [this](auto number) {
+    const auto take = [this](auto number) {
       std::array<char, sizeof(number)> bytes{};
       input_.read(bytes);
       if (swap_) std::ranges::reverse(bytes);
       return static_cast<double>(std::bit_cast<decltype(number)>(bytes));
-    });
+    };
+    return std::visit(take, type);
   }
 
   void end() {}

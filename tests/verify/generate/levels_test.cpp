@@ -18,7 +18,6 @@
 #include "touchstone/mesh.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/data/query_group.hpp"
-#include "verify/generate/family_builder.hpp"
 #include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::generate::levels_test {
@@ -105,15 +104,6 @@ TEST(Levels, AreFarFromTheOrigin) {
       EXPECT_LE(away, 3.0 * 1.9);
     }
   });
-}
-
-/// Only rounded values test a filter.
-TEST(Levels, HaveFullSignificands) {
-  for (const std::string_view name : {"near", "parallel"}) {
-    for_each_level(name, [](int, Kind, const Queries& queries) {
-      for (const Query& query : queries.straight()) EXPECT_TRUE(uses_full_significands(query));
-    });
-  }
 }
 
 TEST(Levels, HaveTheirScaleAndDecimals) {
