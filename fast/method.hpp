@@ -150,7 +150,8 @@ class Method {
 /// The certified solver as a method.
 [[nodiscard]] std::unique_ptr<Method> certified_method(const CertifiedOptions& base = {});
 
-/// Tight-Inclusion as a method, `tight_inclusion`.
-[[nodiscard]] std::unique_ptr<Method> tight_inclusion_method();
+/// Tight-Inclusion as a method, `tight_inclusion`, of the base's kernel.
+[[nodiscard]] std::unique_ptr<Method> tight_inclusion_method(
+    const TightInclusionOptions& base = {});
 
 }  // namespace touchstone::fast

@@ -370,6 +370,8 @@ std::uint32_t to_answer_checks(std::int64_t checks) {
 
 class TightInclusionMethod final : public Method {
  public:
+  explicit TightInclusionMethod(const BoxKernel* kernel) : kernel_(kernel) {}
+
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
 
   void solve(const Queries& queries, std::span<Answer> answers,
@@ -377,7 +379,8 @@ class TightInclusionMethod final : public Method {
     const TightInclusionOptions all{.tolerance = options.tolerance,
                                     .max_checks = options.max_checks,
                                     .separation = options.separation,
-                                    .t_max = options.t_max};
+                                    .t_max = options.t_max,
+                                    .kernel = kernel_};
     solve_all(queries, all, [&](std::size_t i, const TightInclusionResult& result) {
       answers[i] = {.verdict = result.verdict,
                     .checks = to_answer_checks(result.checks),
@@ -397,6 +400,7 @@ class TightInclusionMethod final : public Method {
                    .norms = {Norm::linf},
                    .is_tolerance_driven = true,
                    .filter = error_filter};
+  const BoxKernel* kernel_;
 };
 
 }  // namespace
@@ -426,8 +430,8 @@ void tight_inclusion(const Queries& queries, std::span<TightInclusionResult> res
             [&](std::size_t i, const TightInclusionResult& result) { results[i] = result; });
 }
 
-std::unique_ptr<Method> tight_inclusion_method() {
-  return std::make_unique<TightInclusionMethod>();
+std::unique_ptr<Method> tight_inclusion_method(const TightInclusionOptions& base) {
+  return std::make_unique<TightInclusionMethod>(base.kernel);
 }
 
 }  // namespace touchstone::fast

@@ -341,7 +341,7 @@ TEST(TightInclusion, FamiliesFindPlantedFaults) {
     expect_found(fault, *tight_inclusion_method({.kernel = fault.part}));
   }
   for (const auto& fault : tests::planted_faults().tight_inclusion) {
-    expect_found(fault, *fault.part());
+    expect_found(fault, *fault.part({}));
   }
 }
 

@@ -53,7 +53,7 @@ std::vector<FaultySolver> all_faulty_solvers() {
                    [part = fault.part] { return fast::tight_inclusion_method({.kernel = part}); }});
   }
   for (const auto& fault : planted.tight_inclusion) {
-    all.push_back({fault, tight_inclusion, [part = fault.part] { return part(); }});
+    all.push_back({fault, tight_inclusion, [part = fault.part] { return part({}); }});
   }
   for (const auto& fault : planted.certified_kernel) {
     all.push_back({fault, certified, [part = fault.part] {

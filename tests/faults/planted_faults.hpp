@@ -83,7 +83,7 @@ using DecideCurvesExactly = std::optional<fast::ExactImpact>(Kind, const CurvedQ
                                                              const Separation&,
                                                              double toi_tolerance, double t_max);
 using MakeFixedPoint = fast::FixedPointVertices(const fast::Motion&, double end, double distance);
-using MakeTightInclusion = std::unique_ptr<fast::Method>();
+using MakeTightInclusion = std::unique_ptr<fast::Method>(const fast::TightInclusionOptions&);
 using MakeCertified = std::unique_ptr<fast::Method>(const fast::CertifiedOptions&);
 
 /// All faults that this build plants, in the order of faults.txt.

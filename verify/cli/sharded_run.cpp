@@ -199,7 +199,7 @@ std::string summary_text(const json& total) {
 
 /// The status that follows from the solvers' responses to the queries of all parts.
 Status status_of_responses(const json& total) {
-  const auto responses = [](const json& counts) -> Responses {
+  const auto responses = [](const json& counts) -> judge::Responses {
     return {.asked = counts.at("queries"),
             .hangs = counts.at("failures").at(judge::to_string(judge::Fault::hang)),
             .errors = counts.at("errors"),

@@ -159,28 +159,11 @@ void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes) {
       fmt::format("{} ended its process {} times, not at a particular query", solver, crashes));
 }
 
-Responses Responses::of(const judge::Judgement& judgement) {
-  return {.asked = judgement.queries,
-          .hangs = judgement.count(judge::Fault::hang),
-          .errors = judgement.errors_at_queries(),
-          .unasked = judgement.outside + judgement.left_out};
-}
-
-Status status_of(std::string_view solver, const Responses& responses) {
-  const auto& [asked, hangs, errors, unasked] = responses;
-  if (asked + unasked == 0) return Status::all_well;
-  if (hangs + errors >= asked) {
-    report_error(
-        fmt::format("{} was not judged: it answered none of {} queries ({} hangs, {} "
-                    "errors, {} not asked)",
-                    solver, asked + unasked, hangs, errors, unasked));
-    return Status::bad_input;
-  }
-  constexpr std::uint64_t queries_of_a_hang = 100;
-  if (hangs * queries_of_a_hang <= asked) return Status::all_well;
-  report_error(fmt::format("{} hung at {} of {} queries: more than one in {} is a fault", solver,
-                           hangs, asked, queries_of_a_hang));
-  return Status::wrong_answers;
+Status status_of(std::string_view solver, const judge::Responses& responses) {
+  const auto silence = judge::silence_of(solver, responses);
+  if (!silence) return Status::all_well;
+  report_error(silence->text);
+  return silence->is_unjudged ? Status::bad_input : Status::wrong_answers;
 }
 
 Status worse(Status a, Status b) {

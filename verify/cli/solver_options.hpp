@@ -17,7 +17,7 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/files.hpp"
 #include "verify/fuzz/fuzz.hpp"
-#include "verify/judge/judgement.hpp"
+#include "verify/judge/responses.hpp"
 #include "verify/solvers/answers.hpp"
 #include "verify/solvers/plugin_method.hpp"
 #include "verify/solvers/solver.hpp"
@@ -104,20 +104,10 @@ void report_norms(const fast::MethodInfo& info, const Separation& separation);
 /// Reports on standard error the number of times that a solver ended its process, if positive.
 void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes);
 
-/// The responses of a solver to the queries of a run.
-struct Responses {
-  std::uint64_t asked = 0;
-  std::uint64_t hangs = 0;
-  std::uint64_t errors = 0;
-  std::uint64_t unasked = 0;  ///< outside its terms, or skipped
-
-  [[nodiscard]] static Responses of(const judge::Judgement& judgement);
-};
-
 /// The status of a run by its solver's responses: bad_input if it answered nothing,
-/// wrong_answers if it hung at more than one in a hundred queries; the reason goes to standard
-/// error. all_well if there were no queries.
-[[nodiscard]] Status status_of(std::string_view solver, const Responses& responses);
+/// wrong_answers if it hung too often (verify/judge/responses.hpp); the reason goes to standard
+/// error.
+[[nodiscard]] Status status_of(std::string_view solver, const judge::Responses& responses);
 
 /// The more urgent of two: wrong_answers before bad_input before the others.
 [[nodiscard]] Status worse(Status a, Status b);

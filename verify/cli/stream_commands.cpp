@@ -447,7 +447,7 @@ class StreamRun {
     if (io::interrupted() || arguments_.sources.is_part()) return status;
     for (const jobs::MethodResult& method : sum_.methods) {
       if (method.judgement.missing != 0) continue;
-      status = worse(status, status_of(method.name, Responses::of(method.judgement)));
+      status = worse(status, status_of(method.name, judge::Responses::of(method.judgement)));
     }
     return status;
   }

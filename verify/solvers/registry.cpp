@@ -20,7 +20,7 @@ using Methods = std::vector<std::unique_ptr<const fast::Method>>;
 /// Ours, then the baselines, those for curves last.
 constexpr auto factories = std::to_array<std::unique_ptr<fast::Method> (*)()>({
     [] { return fast::certified_method(); },
-    fast::tight_inclusion_method,
+    [] { return fast::tight_inclusion_method(); },
     baselines::accd_method,
     baselines::accd_limited_method,
     baselines::cubic_method,

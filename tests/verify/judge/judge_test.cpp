@@ -22,6 +22,7 @@
 #include "touchstone/algebraic_number.hpp"
 #include "touchstone/oracle.hpp"
 #include "verify/judge/judgement.hpp"
+#include "verify/judge/responses.hpp"
 
 namespace touchstone::verify::judge::judge_test {
 namespace {
@@ -348,6 +349,22 @@ TEST(Judgement, KeepsSoManyWrongAnswersOfAFaultAndCountsAll) {
   for (int i = 0; i < 1500; ++i) add(alone, collision(0.5, 0.5), {.verdict = Verdict::no});
   EXPECT_EQ(alone.count(Fault::false_negative), 1500U);
   EXPECT_EQ(alone.wrong_answers.size(), Judgement::most_kept);
+}
+
+/// One hang in a hundred queries is allowed; no answer at all is no judgement.
+TEST(Responses, ThatAreMissingAreAFault) {
+  EXPECT_FALSE(silence_of("a", {}));
+  EXPECT_FALSE(silence_of("a", {.asked = 100, .hangs = 1, .unasked = 5}));
+  const auto often = silence_of("a", {.asked = 199, .hangs = 2});
+  ASSERT_TRUE(often);
+  EXPECT_FALSE(often->is_unjudged);
+  for (const Responses& none :
+       {Responses{.unasked = 1}, Responses{.asked = 3, .hangs = 1, .errors = 2}}) {
+    const auto silence = silence_of("a", none);
+    ASSERT_TRUE(silence);
+    EXPECT_TRUE(silence->is_unjudged);
+    EXPECT_NE(silence->text.find("a was not judged"), std::string::npos);
+  }
 }
 
 }  // namespace
