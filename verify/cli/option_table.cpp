@@ -66,7 +66,7 @@ std::vector<OptionRow> make_table() {
       {"--family", "NAME", {}, "Only these families (see --list)", "generate", list},
       {"--patches", "N", Whole{1, 20'000}, "Write two patches of mesh instead of queries, before and after a step, with N cells per side: 4 N² faces"},
       {"--index", "N", Whole{}, "Only the query at this position of a file, from 0; repeatable"},
-      {"--most", "N", Whole{1, most_viewed_queries}, "Maximum number of queries", "view"},
+      {"--most", "N", Whole{1, 1000}, "Maximum number of queries", "view"},
       {"--points", "NUMBERS", {}, "The 24 coordinates of a query, in one word: decimal, hexadecimal or fractions"},
 
       // Meshes.

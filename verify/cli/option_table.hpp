@@ -27,9 +27,6 @@ namespace touchstone::verify::cli {
 /// Seconds of touchstone fuzz without --seconds and --queries.
 inline constexpr double usual_fuzz_seconds = 60.0;
 
-/// The maximum number of queries on a page of touchstone view.
-inline constexpr std::uint64_t most_viewed_queries = 1000;
-
 /// Any text.
 struct Text {};
 

@@ -37,7 +37,12 @@ std::vector<std::string> named_methods(const SolverArguments& arguments) {
 void add_named_solver_options(Command& command, SolverArguments& arguments) {
   begin_group(command, "Solver");
   add_option(command, "--method", arguments.methods);
-  add_plugin_option(command, arguments);
+  add_option(command, "--plugin", arguments.plugins);
+  add_option(command, "--answers-kinds", arguments.kinds);
+  add_option(command, "--float-coordinates", arguments.float_coordinates);
+  add_option(command, "--starts-apart", arguments.starts_apart);
+  add_option(command, "--times", arguments.times);
+  add_option(command, "--time-error", arguments.time_error);
   add_option(command, "--query-limit", arguments.query_limit);
   add_option(command, "--memory-limit", arguments.memory_limit);
   add_option(command, "--allow-processes", arguments.allow_processes);
@@ -48,15 +53,6 @@ void add_solver_options(Command& command, SolverArguments& arguments) {
   add_named_solver_options(command, arguments);
   add_option(command, "--tolerance", arguments.options.tolerance);
   add_option(command, "--max-checks", arguments.options.max_checks);
-}
-
-void add_plugin_option(Command& command, SolverArguments& arguments) {
-  add_option(command, "--plugin", arguments.plugins);
-  add_option(command, "--answers-kinds", arguments.kinds);
-  add_option(command, "--float-coordinates", arguments.float_coordinates);
-  add_option(command, "--starts-apart", arguments.starts_apart);
-  add_option(command, "--times", arguments.times);
-  add_option(command, "--time-error", arguments.time_error);
 }
 
 solvers::TermsChanges SolverArguments::terms() const {
@@ -95,16 +91,12 @@ solvers::ChildLimits SolverArguments::limits() const {
   return limits;
 }
 
-solvers::PluginOptions SolverArguments::loading() const {
-  constexpr double least_limit = 10.0;  // the disk may be slow
-  return {.terms = terms(),
-          .limits = limits(),
-          .load_seconds = std::max(least_limit, query_limit),
-          .stop = &io::interrupted()};
-}
-
 std::unique_ptr<fast::Method> SolverArguments::load(const std::filesystem::path& plugin) const {
-  return solvers::load_plugin(plugin, loading());
+  constexpr double least_limit = 10.0;  // the disk may be slow
+  return solvers::load_plugin(plugin, {.terms = terms(),
+                                       .limits = limits(),
+                                       .load_seconds = std::max(least_limit, query_limit),
+                                       .stop = &io::interrupted()});
 }
 
 solvers::SolverProcessOptions SolverArguments::process() const {

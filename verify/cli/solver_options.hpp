@@ -62,9 +62,6 @@ struct SolverArguments {
   /// The limits of a solver's process.
   [[nodiscard]] solvers::ChildLimits limits() const;
 
-  /// The options with which plugins are loaded.
-  [[nodiscard]] solvers::PluginOptions loading() const;
-
   /// The plugin at a path, loaded in a child process. \throws DatasetError as load_plugin does.
   [[nodiscard]] std::unique_ptr<fast::Method> load(const std::filesystem::path& plugin) const;
 
@@ -74,16 +71,12 @@ struct SolverArguments {
   [[nodiscard]] bool empty() const { return methods.empty() && plugins.empty() && results.empty(); }
 };
 
-/// Adds --method, the options of add_plugin_option(), --query-limit, --memory-limit,
+/// Adds --method, --plugin, the terms of the promises of plugins, --query-limit, --memory-limit,
 /// --allow-processes and --show-output; the arguments must live until the command line is parsed.
 void add_named_solver_options(Command& command, SolverArguments& arguments);
 
 /// Adds these, --tolerance and --max-checks.
 void add_solver_options(Command& command, SolverArguments& arguments);
-
-/// Adds --plugin, and the terms of the promises of plugins: --answers-kinds, --starts-apart,
-/// --float-coordinates, --times, --time-error.
-void add_plugin_option(Command& command, SolverArguments& arguments);
 
 /// Without --query-limit, a query may take no more than a sixtieth of the run if that is less than
 /// the usual limit. \param seconds of the run; 0: no limit

@@ -24,12 +24,6 @@ struct RecordedQuery {
   std::optional<exact::Rational> toi;
 };
 
-/// The origin of a query.
-struct QueryPlace {
-  std::string source;       ///< QuerySource::name
-  std::uint64_t index = 0;  ///< RecordedQuery::index
-};
-
 /// A stream of queries of one shape.
 class QuerySource {
  public:

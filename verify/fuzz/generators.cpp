@@ -25,6 +25,56 @@ using draws::below;
 using draws::one_in;
 using generate::Random;
 
+// ---- Small changes ------------------------------------------------------------------------------
+
+/// Maps doubles to integers in the same order: ±0 to 0.
+std::int64_t rank(double x) {
+  const auto bits = std::bit_cast<std::int64_t>(std::abs(x));
+  return std::signbit(x) ? -bits : bits;
+}
+
+/// The double at this number of doubles above x (below, if negative), limited to the greatest
+/// finite magnitude.
+double stepped(double x, std::int64_t steps) {
+  static constexpr auto greatest = std::bit_cast<std::int64_t>(std::numeric_limits<double>::max());
+  const std::int64_t target = std::clamp(rank(x) + steps, -greatest, greatest);
+  const auto magnitude = std::bit_cast<double>(std::abs(target));
+  return target < 0 ? -magnitude : magnitude;
+}
+
+double& some_number(std::span<double> numbers, Random& random) {
+  return numbers[below(random, numbers.size())];
+}
+
+void nudge_numbers(std::span<double> numbers, Random& random) {
+  const std::size_t count = 1 + below(random, 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    double& x = some_number(numbers, random);
+    const std::int64_t steps =
+        one_in(random, 4) ? std::int64_t{1} << below(random, 40) : random.between(1, 4);
+    x = stepped(x, random.coin() ? steps : -steps);
+  }
+}
+
+/// Moves one to three coordinates by some units in the last place: mostly a few, sometimes 2^k.
+void nudge(Query& query, Random& random) { nudge_numbers(query.coordinates, random); }
+
+/// Moves the points at one end by up to 2^-20 of their way, forwards or backwards: an event at that
+/// end then happens slightly earlier or not at all. All points, or the first primitive's.
+void overshoot(Kind kind, Query& query, Random& random) {
+  const std::size_t end = below(random, 2);
+  const std::size_t first_primitive = kind == Kind::vertex_face ? 1 : 2;
+  const std::size_t count = random.coin() ? moving_points : first_primitive;
+  const double part =
+      std::ldexp(random.coin() ? 1.0 : -1.0, -static_cast<int>(random.between(20, 52)));
+  Query moved = query;
+  for (std::size_t point = 0; point < count; ++point) {
+    point_of(moved, end, point) +=
+        part * (point_of(query, end, point) - point_of(query, 1 - end, point));
+  }
+  if (is_finite(moved)) query = moved;
+}
+
 // ---- Structured coordinates ---------------------------------------------------------------------
 
 /// Small integers times a power of two.
@@ -311,32 +361,12 @@ std::vector<Generator> generators(const Separation& separation, bool on_curves) 
 
 namespace {
 
-/// Maps doubles to integers in the same order: ±0 to 0.
-std::int64_t rank(double x) {
-  const auto bits = std::bit_cast<std::int64_t>(std::abs(x));
-  return std::signbit(x) ? -bits : bits;
-}
-
-double& some_number(std::span<double> numbers, Random& random) {
-  return numbers[below(random, numbers.size())];
-}
-
 /// Another coordinate of the same axis, for equal coordinates, or another weight.
 double some_like(const AnyQuery& query, const double& number, Random& random) {
   const std::span<const double> all = query.numbers();
   const std::size_t size = query.shape().numbers_of_point();
   const auto index = static_cast<std::size_t>(&number - all.data());
   return all[size * below(random, all.size() / size) + index % size];
-}
-
-void nudge_numbers(std::span<double> numbers, Random& random) {
-  const std::size_t count = 1 + below(random, 3);
-  for (std::size_t i = 0; i < count; ++i) {
-    double& x = some_number(numbers, random);
-    const std::int64_t steps =
-        one_in(random, 4) ? std::int64_t{1} << below(random, 40) : random.between(1, 4);
-    x = stepped(x, random.coin() ? steps : -steps);
-  }
 }
 
 void flip_bit(double& x, Random& random) {
@@ -417,29 +447,6 @@ void restore_weights(AnyQuery& query, const AnyQuery& before, bool changes_weigh
 }
 
 }  // namespace
-
-double stepped(double x, std::int64_t steps) {
-  static constexpr auto greatest = std::bit_cast<std::int64_t>(std::numeric_limits<double>::max());
-  const std::int64_t target = std::clamp(rank(x) + steps, -greatest, greatest);
-  const auto magnitude = std::bit_cast<double>(std::abs(target));
-  return target < 0 ? -magnitude : magnitude;
-}
-
-void nudge(Query& query, Random& random) { nudge_numbers(query.coordinates, random); }
-
-void overshoot(Kind kind, Query& query, Random& random) {
-  const std::size_t end = below(random, 2);
-  const std::size_t first_primitive = kind == Kind::vertex_face ? 1 : 2;
-  const std::size_t count = random.coin() ? moving_points : first_primitive;
-  const double part =
-      std::ldexp(random.coin() ? 1.0 : -1.0, -static_cast<int>(random.between(20, 52)));
-  Query moved = query;
-  for (std::size_t point = 0; point < count; ++point) {
-    point_of(moved, end, point) +=
-        part * (point_of(query, end, point) - point_of(query, 1 - end, point));
-  }
-  if (is_finite(moved)) query = moved;
-}
 
 AnyQuery mutated(const AnyQuery& query, bool changes_weights, Random& random) {
   AnyQuery result = query;

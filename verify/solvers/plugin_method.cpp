@@ -241,6 +241,14 @@ constexpr TouchstonePluginAnswer unanswered{.verdict = TOUCHSTONE_ERROR,
                                             .toi_upper = fast::Answer::none,
                                             .tolerance = fast::Answer::none};
 
+/// The number by which plugins know a kind: one of TouchstoneKind.
+std::int32_t plugin_kind(Kind kind) {
+  static constexpr std::array<std::int32_t, all_kinds.size()> numbers{
+      TOUCHSTONE_VERTEX_FACE, TOUCHSTONE_EDGE_EDGE, TOUCHSTONE_TETRAHEDRON,
+      TOUCHSTONE_PLANE_TRIANGLE};
+  return numbers.at(static_cast<std::size_t>(kind));
+}
+
 class PluginMethod final : public fast::Method {
  public:
   PluginMethod(std::filesystem::path path, std::string state, std::string name,
@@ -427,13 +435,6 @@ static_assert(calls.size() == named.size() && named.size() == refused.size() &&
               refused.size() == threw.size() && threw.size() == vowed.size());
 
 }  // namespace
-
-std::int32_t plugin_kind(Kind kind) {
-  static constexpr std::array<std::int32_t, all_kinds.size()> numbers{
-      TOUCHSTONE_VERTEX_FACE, TOUCHSTONE_EDGE_EDGE, TOUCHSTONE_TETRAHEDRON,
-      TOUCHSTONE_PLANE_TRIANGLE};
-  return numbers.at(static_cast<std::size_t>(kind));
-}
 
 fast::Terms changed(fast::Terms terms, const TermsChanges& changes) {
   terms.kinds = changes.kinds.value_or(terms.kinds);

@@ -28,9 +28,6 @@ struct TermsChanges {
   std::optional<double> time_error = std::nullopt;
 };
 
-/// The number by which plugins know a kind: one of TouchstoneKind.
-[[nodiscard]] std::int32_t plugin_kind(Kind kind);
-
 /// The terms with the changes made.
 [[nodiscard]] fast::Terms changed(fast::Terms terms, const TermsChanges& changes);
 
