@@ -1,14 +1,16 @@
 #include "touchstone/oracle.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "exact/contact/contact_conditions.hpp"
 #include "exact/contact/contact_oracle.hpp"
 #include "exact/contact/corner_motion.hpp"
-#include "exact/distance/distance_oracle.hpp"
+#include "exact/distance/separating_axes.hpp"
 #include "touchstone/element.hpp"
 
 namespace touchstone::exact {
@@ -26,6 +28,20 @@ std::optional<AlgebraicNumber> time_of_inversion(const MotionOf<Order>& tetrahed
   return std::move(roots.front());
 }
 
+/// The first time at which the query comes within the motion's distance d: P(t) = conv{w_i(t)}, the
+/// image of F(t,·,·), has a point x with ‖x‖ ≤ d. At every earlier time some axis separates. The
+/// first time at which none does is checked by the conditions of a contact, which do not depend on
+/// axes (docs/theory.md, section 3).
+/// \throws std::logic_error if the two disagree, that is if the oracle is wrong.
+template <class Order>
+std::optional<AlgebraicNumber> time_within_distance(const MotionOf<Order>& motion) {
+  std::optional<AlgebraicNumber> toi = end_of_separation(motion);
+  if (toi && !find_near_contact(motion, *toi)) {
+    throw std::logic_error("touchstone: no point is within the distance where the axes end");
+  }
+  return toi;
+}
+
 /// \tparam AnyQuery Query or CurvedQuery
 template <class AnyQuery>
 Decision decide_any(Kind kind, const AnyQuery& query, const Separation& separation) {
@@ -35,7 +51,11 @@ Decision decide_any(Kind kind, const AnyQuery& query, const Separation& separati
     decision.toi = time_of_inversion(scale(Kind::vertex_face, to_tetrahedron(kind, query)));
   } else {
     const auto motion = scale(kind, query, separation);
-    decision = is_zero(separation) ? decide_contact(motion) : decide_distance(motion);
+    if (is_zero(separation)) {
+      decision = decide_contact(motion);
+    } else {
+      decision.toi = time_within_distance(motion);
+    }
   }
   decision.separation = separation;
   return decision;

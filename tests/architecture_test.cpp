@@ -122,7 +122,7 @@ constexpr std::string_view headers_without_test = R"(
   exact/algebra/: positivity.hpp
   exact/checker/: proof.hpp scene.hpp
   exact/contact/: contact_conditions.hpp contact_oracle.hpp
-  exact/distance/: distance_oracle.hpp separating_axes.hpp
+  exact/distance/: separating_axes.hpp
   exact/scene/: scene_text.hpp
 // The kernels, which take the same queries in the same tests; the deciders; distances, steps, and the
 // search for pairs, against all pairs one by one; intersections, beside rational arithmetic.

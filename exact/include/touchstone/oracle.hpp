@@ -34,7 +34,7 @@
 /// \endcode
 ///
 /// At distance 0 the rules of exact/contact/contact_oracle.hpp decide, which also give the place of
-/// contact; at a greater distance those of exact/distance/distance_oracle.hpp. Both are integer
+/// contact; at a greater distance those of exact/distance/separating_axes.hpp. Both are integer
 /// arithmetic on scaled coordinates, without rounding and without filters. docs/theory.md, sections
 /// 2, 3 and 10. All functions are thread-safe.
 ///
