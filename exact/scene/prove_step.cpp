@@ -186,10 +186,11 @@ class StepProver : private ProofWriter {
     for (std::size_t kind = 0; kind < step_pair_kinds.size(); ++kind) {
       if (!proof().is_complete()) return;
       put(std::string(step_pair_kinds.at(kind)) + '\n');
-      const auto some = std::ranges::equal_range(pairs, kind, {}, &Pair::kind_number);
-      write_arguments(some.size(), [&](std::size_t i, Arguments& arguments) {
-        argue(some[static_cast<std::ptrdiff_t>(i)], arguments);
-      });
+      const auto count =
+          static_cast<std::size_t>(std::ranges::count(pairs, kind, &Pair::kind_number));
+      write_arguments(count,
+                      [&](std::size_t i, Arguments& arguments) { argue(pairs[i], arguments); });
+      pairs = pairs.subspan(count);
     }
   }
 

@@ -176,8 +176,8 @@ class Search {
   // ---- The search -------------------------------------------------------------------------------
 
   [[nodiscard]] mpq_class computed(const Inputs& at) const {
-    if (format_.digits == float_format.digits) return mpq_class(evaluators_.in_float(at));
-    if (format_.digits == double_format.digits) return mpq_class(evaluators_.in_double(at));
+    if (format_.digits == float_format.digits) return {evaluators_.in_float(at)};
+    if (format_.digits == double_format.digits) return {evaluators_.in_double(at)};
     const auto [high, low] = evaluators_.in_double_double(at);
     return mpq_class(high) + mpq_class(low);
   }
