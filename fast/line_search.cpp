@@ -87,14 +87,14 @@ LineSearchLimit limit_of_scene(const Step& step, double p, Norm norm) {
 // ---- The pairs' own distances -------------------------------------------------------------------
 
 /// How far vertices move.
-struct Extent {
+struct Displacement {
   double relative = 0.0;  ///< an upper bound, in L2, of that of one relative to another
   double mean = 0.0;      ///< the mean in L∞, nearly
 };
 
 /// That of all vertices. May be infinite or NaN.
-Extent extent_of(const Motion& vertices) {
-  Extent result;
+Displacement displacement_of(const Motion& vertices) {
+  Displacement result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double least = positive_infinity, most = -positive_infinity;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -181,7 +181,7 @@ class SearchOfPairs {
   void search() {
     // Distances among the least doubles are always examined.
     constexpr double least = 0x1p-1000;
-    const Extent motion = extent_of(step_.vertices());
+    const Displacement motion = displacement_of(step_.vertices());
     const double until = time();
     const double within =
         until * p_ / ((1.0 - p_) - 5.0 * 0x1p-53 * p_) * (1.0 + 0x1p-40) * motion.relative;

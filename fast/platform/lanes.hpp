@@ -111,7 +111,7 @@ struct Portable {
       return __builtin_fabs(a);
     } else {
       using Words = decltype(a < a);
-      const Words sign = reinterpret_cast<Words>(-Vector{});
+      const auto sign = reinterpret_cast<Words>(-Vector{});
       return reinterpret_cast<Vector>(reinterpret_cast<Words>(a) & ~sign);
     }
   }

@@ -124,7 +124,7 @@ void time_curves(benchmark::State& state, const CurvedSet& set) {
   double of_lines = 0.0, of_curves = 0.0;
   for (auto iteration : state) {
     static_cast<void>(iteration);
-    of_lines += seconds([&] { fast::solve(set.kind, set.lines, results, options); });
+    of_lines += seconds([&] { fast::solve({set.kind, set.lines}, results, options); });
     const double time = seconds([&] { fast::solve(set.queries(), results, options); });
     state.SetIterationTime(time);
     of_curves += time;

@@ -4,7 +4,7 @@
 /// The subcommands of `touchstone`. Each adds itself to the command line; its callback runs
 /// the command and sets the exit status.
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the parser's
 class App;
 }
 

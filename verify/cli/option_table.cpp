@@ -271,9 +271,9 @@ void read_all(const OptionRow& /*row*/, const Words& words, Pairs& pairs) {
 }
 
 template <class Value>
-constexpr bool is_list = false;
+constexpr bool is_vector = false;
 template <class Value>
-constexpr bool is_list<std::vector<Value>> = true;
+constexpr bool is_vector<std::vector<Value>> = true;
 
 /// Shows the variable's value as the default, if the option takes it.
 template <class Value>
@@ -296,7 +296,7 @@ CLI::Option* added(CLI::App& command, const OptionRow& row, Value* value) {
       },
       row.text);
   if constexpr (std::is_same_v<Value, Pairs>) option->type_size(2);
-  if constexpr (is_list<Value>) option->expected(CLI::detail::expected_max_vector_size);
+  if constexpr (is_vector<Value>) option->expected(CLI::detail::expected_max_vector_size);
   show_default(*option, row, *value);
   return option;
 }
@@ -360,9 +360,9 @@ void set_action(Command& command, const std::function<void()>& action) { command
 
 std::string name_of(const Command& command) { return command.get_name(); }
 
-bool is_given(const Command& command, const std::string& name) {
-  const CLI::Option* const option = command.get_option_no_throw(name);
-  return option != nullptr && option->count() != 0;
+bool is_given(const Command& command, const std::string& option) {
+  const CLI::Option* const found = command.get_option_no_throw(option);
+  return found != nullptr && found->count() != 0;
 }
 
 std::vector<std::pair<std::string, std::string>> given_options(const Command& command) {
@@ -375,7 +375,7 @@ std::vector<std::pair<std::string, std::string>> given_options(const Command& co
 }
 
 void require_kind(const Command& command, Kind kind, const std::filesystem::path& file) {
-  const std::string name = command.get_name();
+  const std::string& name = command.get_name();
   const auto refuse = [&](std::string_view what, std::string_view way_out) {
     throw std::invalid_argument(
         fmt::format("{}{} takes vertex-face and edge-edge alone, not a {}: {}{}",

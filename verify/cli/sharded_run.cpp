@@ -71,7 +71,7 @@ std::vector<std::string> options_of(const Command& command) {
                                             "--out",  "--table", "--badge"};
   std::vector<std::string> options;
   for (const auto& [option, value] : given_options(command)) {
-    if (!others.contains(option)) options.push_back(option + "=" + value);
+    if (!others.contains(option)) options.push_back(fmt::format("{}={}", option, value));
   }
   return options;
 }
