@@ -15,7 +15,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SOURCES = ["CMakeLists.txt", "LICENSE", "pyproject.toml", "cmake", "exact", "fast", "filters", "python", "tests/portability"]
-PARTS = {f"TOUCHSTONE_BUILD_{name}": "OFF" for name in ("EXACT", "DERIVATION", "ADAPTERS", "BASELINES", "TOOL", "TESTS")}
+PARTS = {f"TOUCHSTONE_BUILD_{name}": "OFF" for name in ("EXACT", "DERIVATION", "ADAPTERS", "TOOL", "TESTS")}
 
 
 def project():

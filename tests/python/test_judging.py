@@ -161,7 +161,7 @@ def test_a_name_that_misleads_is_refused(name, eight):
 
 
 def test_a_batch_is_many_queries_and_a_failure_costs_one():
-    data = touchstone.Queries("edge_edge", np.random.default_rng(3).normal(size=(300, 8, 3)))
+    data = touchstone.Queries("edge_edge", np.random.default_rng(3).normal(size=(900, 8, 3)))
     unwanted = data.queries[200].copy()
 
     def batch(kind, queries):
