@@ -85,6 +85,7 @@ std::vector<Unopened> dataset_files(const SourceArguments& arguments, Files& rec
   const std::vector<fs::path> files = find_files(arguments, record, handlers);
   require_kinds(*arguments.command, files, options.kind);
   std::vector<Unopened> sources;
+  sources.reserve(files.size());
   for (const fs::path& file : files) {
     sources.push_back({file, [=] { return data::open_dataset(file, options); }});
   }
