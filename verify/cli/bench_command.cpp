@@ -41,6 +41,7 @@
 #include "verify/mesh/moving_mesh.hpp"
 #include "verify/report/bench_page.hpp"
 #include "verify/report/bench_report.hpp"
+#include "verify/solvers/published.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
 
@@ -127,7 +128,7 @@ std::deque<Setting> settings_of(Files& files, const Arguments& arguments) {
     }
     if (i == 1) {
       std::erase_if(solvers.methods, [](const std::string& name) {
-        return !solvers::find_method(name).info().is_tolerance_driven;
+        return !solvers::find_any(name).info().is_tolerance_driven;
       });
     }
     for (std::size_t k = 0; k < limits && !solvers.empty(); ++k) {
