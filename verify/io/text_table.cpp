@@ -29,22 +29,14 @@ TextTable::TextTable(std::vector<TextColumn> columns) : columns_(std::move(colum
 
 void TextTable::add(TextRow row) { rows_.push_back(std::move(row)); }
 
-void TextTable::add_line(std::string line) { rows_.push_back({std::move(line)}); }
-
 std::string TextTable::text() const {
   std::vector<std::size_t> widths;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     widths.push_back(columns_[i].least_width);
-    for (const TextRow& row : rows_) {
-      if (row.size() == columns_.size()) widths[i] = std::max(widths[i], width_of(row[i]));
-    }
+    for (const TextRow& row : rows_) widths[i] = std::max(widths[i], width_of(row[i]));
   }
   std::string text;
   for (const TextRow& row : rows_) {
-    if (row.size() != columns_.size()) {
-      text += row.front() + '\n';
-      continue;
-    }
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (i != 0) text += "  ";
       text += columns_[i].align == Align::left ? fmt::format("{:<{}}", row[i], widths[i])

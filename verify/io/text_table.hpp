@@ -35,14 +35,11 @@ class TextTable {
   /// \pre a cell for each column, each of one line
   void add(TextRow row);
 
-  /// A line across all columns, below the rows so far.
-  void add_line(std::string line);
-
   [[nodiscard]] std::string text() const;
 
  private:
   std::vector<TextColumn> columns_;
-  std::vector<TextRow> rows_;  // one cell alone is a line across a table of several columns
+  std::vector<TextRow> rows_;  // the first has the names
 };
 
 /// The elements of several lists as one.

@@ -337,11 +337,6 @@ std::optional<double> MethodResult::nanoseconds_per_query() const {
   return judgement.nanoseconds_per_query();
 }
 
-std::optional<double> MethodResult::checks_per_query() const {
-  if (judgement.queries == 0 || judgement.checks == 0) return std::nullopt;
-  return static_cast<double>(judgement.checks) / static_cast<double>(judgement.queries);
-}
-
 double CertifyResult::microseconds_per_query() const {
   return queries == 0 ? 0.0 : microseconds / static_cast<double>(queries);
 }

@@ -77,8 +77,6 @@ struct MethodResult {
 
   /// Mean processor time of a query, where it is known.
   [[nodiscard]] std::optional<double> nanoseconds_per_query() const;
-  /// Mean number of checks of a query, where the solver counts them.
-  [[nodiscard]] std::optional<double> checks_per_query() const;
 };
 
 /// The result of a solver that was asked nothing.

@@ -15,24 +15,30 @@
 
 namespace touchstone::verify::published {
 
-/// The constants of [wang2021], section 4.2 and appendix (docs/theory.md, section 4.10), times γ³.
-[[nodiscard]] inline double published_filter(Kind kind, double distance, double gamma) {
+/// The constants of [wang2021], section 4.2 and appendix (docs/theory.md, section 4.10), times γ³,
+/// γ = gamma(x_max) on each axis; infinite where ours is.
+template <class Gamma>
+[[nodiscard]] std::array<double, 3> filter_of_cubes(Kind kind, const std::array<double, 3>& x_max,
+                                                    double distance, const Gamma& gamma) {
   const double constant = kind == Kind::edge_edge
                               ? (distance > 0.0 ? 7.105427357601002e-15 : 6.217248937900877e-15)
                               : (distance > 0.0 ? 7.549516567451064e-15 : 6.661338147750939e-15);
-  return constant * gamma * gamma * gamma;
+  std::array<double, 3> result = fast::error_filter(kind, x_max, distance);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (result[axis] == std::numeric_limits<double>::infinity()) continue;
+    const double factor = gamma(x_max[axis]);
+    result[axis] = constant * factor * factor * factor;
+  }
+  return result;
 }
 
 /// [wang2021]: γ = max(x_max, 1), x_max with the distance.
 [[nodiscard]] inline std::array<double, 3> published_filter(Kind kind,
                                                             const std::array<double, 3>& x_max,
                                                             double distance) {
-  std::array<double, 3> result = fast::error_filter(kind, x_max, distance);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (result[axis] == std::numeric_limits<double>::infinity()) continue;
-    result[axis] = published_filter(kind, distance, std::max({x_max[axis], distance, 1.0}));
-  }
-  return result;
+  return filter_of_cubes(kind, x_max, distance, [&](double greatest) {
+    return std::max({greatest, distance, 1.0});
+  });
 }
 
 /// The public Tight-Inclusion since 2022: γ = min(x_max, 1). It is not a bound: F is linear in the
@@ -40,12 +46,8 @@ namespace touchstone::verify::published {
 [[nodiscard]] inline std::array<double, 3> released_filter(Kind kind,
                                                            const std::array<double, 3>& x_max,
                                                            double distance) {
-  std::array<double, 3> result = fast::error_filter(kind, x_max, distance);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (result[axis] == std::numeric_limits<double>::infinity()) continue;
-    result[axis] = published_filter(kind, distance, std::min(x_max[axis], 1.0));
-  }
-  return result;
+  return filter_of_cubes(kind, x_max, distance,
+                         [](double greatest) { return std::min(greatest, 1.0); });
 }
 
 /// The derived bounds for F computed in float. \pre the arguments are floats.
