@@ -30,7 +30,7 @@ constexpr std::string_view preamble = R"(#pragma once
 /// \file
 /// The error bounds of the filtered expressions, derived from the expressions themselves.
 ///
-/// Written by `touchstone derive --emit filters/include/touchstone/filters/error_bounds.hpp`; not
+/// Written by `touchstone-derive --emit filters/include/touchstone/filters/error_bounds.hpp`; not
 /// to be edited. A test fails if it differs from what the derivation gives, another has Gappa prove
 /// each bound.
 ///
