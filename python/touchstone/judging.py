@@ -82,7 +82,7 @@ def _in_our_words(call: Callable[[], Any]) -> Any:
 
 @checked
 def read(path: PathLike, *, kind: Kind | None = None, round: bool = False) -> Queries:
-    """Read a dataset as the command line tool does: .csv, .csv.zst, .npy, .npz or .obj.
+    """Read a dataset as the command line tool does: .csv, .csv.zst, .npy or .npz.
 
     Parameters
     ----------

@@ -40,7 +40,7 @@ std::vector<OptionRow> make_table() {
   return {
       // clang-format off
       // Queries: files, or the built-in set.
-      {"PATH", "", {}, "Datasets (.csv, .npy), also of queries on curves, or folders of them, findings (.json of fuzz), certificates (.cert, .cert.zst), or eight lines of vertices (.obj)", "view", list},
+      {"PATH", "", {}, "Datasets (.csv, .npy), also of queries on curves, or folders of them, findings (.json of fuzz), or certificates (.cert, .cert.zst)", "view", list},
       {"PATH", "", {}, "Dataset files (.csv, .npy) or folders; default: the built-in set", "", list},
       {"--kind", "KIND", kinds, "Only these queries; otherwise vertex-face and edge-edge", "fuzz"},
       {"--kind", "KIND", kinds, "Only these queries; otherwise vertex-face and edge-edge", "generate"},

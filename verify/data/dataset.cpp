@@ -14,7 +14,6 @@
 
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/npy_dataset.hpp"
-#include "verify/data/obj_dataset.hpp"
 #include "verify/io/output_file.hpp"
 
 namespace touchstone::verify::data {
@@ -206,9 +205,8 @@ std::unique_ptr<QuerySource> open_dataset(const fs::path& path, const DatasetOpt
     return std::make_unique<CsvDataset>(path, options);
   if (extension == ".npy" || extension == ".npz")
     return std::make_unique<NpyDataset>(path, options);
-  if (extension == ".obj") return std::make_unique<ObjDataset>(path, options);
   throw io::DatasetError(path, {},
-                         "unknown format: only .csv, .csv.zst, .npy, .npz and .obj are datasets");
+                         "unknown format: only .csv, .csv.zst, .npy and .npz are datasets");
 }
 
 }  // namespace touchstone::verify::data

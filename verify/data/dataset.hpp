@@ -2,8 +2,8 @@
 
 /// \file
 /// Recorded queries on disk: finding the files, determining their kind, opening them as
-/// streams, in the formats of csv_dataset.hpp (also compressed by zstd), npy_dataset.hpp and
-/// obj_dataset.hpp. Labels and times of impact may be in separate files (ground_truth_files.hpp).
+/// streams, in the formats of csv_dataset.hpp (also compressed by zstd) and npy_dataset.hpp. Labels
+/// and times of impact may be in separate files (ground_truth_files.hpp).
 
 #include <filesystem>
 #include <functional>
@@ -54,7 +54,7 @@ using LeftOut = std::function<void(const io::DatasetError&)>;
 /// \throws DatasetError if the path determines no kind, or both in one part.
 [[nodiscard]] Kind kind_from_path(const std::filesystem::path& path);
 
-/// Opens a .csv, .csv.zst, .npy, .npz or .obj file.
+/// Opens a .csv, .csv.zst, .npy or .npz file.
 /// \throws DatasetError, with and without keep_going, if the file cannot be read, its kind or its
 /// format is unknown, a CSV file has no queries, or a companion file cannot be read.
 [[nodiscard]] std::unique_ptr<QuerySource> open_dataset(const std::filesystem::path& path,

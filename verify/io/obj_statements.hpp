@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The statements of Wavefront OBJ files: what readers of meshes and of queries have in common.
+/// The statements of Wavefront OBJ files.
 ///
 /// A line is a keyword and its words, between spaces and tabs; it goes on in the next one if it
 /// ends in a backslash. A '#' begins a comment, but not in a name, nor in 1.#IND. The
@@ -45,8 +45,6 @@ class ObjStatements {
 
   /// What was passed over, with its number: "vt 3".
   [[nodiscard]] std::vector<std::string> passed_over() const;
-
-  [[nodiscard]] double progress() const { return lines_.progress(); }
 
  private:
   [[nodiscard]] std::string_view joined(const Line& line);

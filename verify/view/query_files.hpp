@@ -4,7 +4,7 @@
 /// Queries for a view, from files: rows of datasets, findings of the fuzzer, certificates,
 /// and the points of one query.
 ///
-///   - .csv, .npy, .obj: a dataset (verify/data/dataset.hpp);
+///   - .csv, .npy: a dataset (verify/data/dataset.hpp);
 ///   - .json: the report of `fuzz --json`, whose findings are read, or one of them, or the JSON
 ///     that a view copies: an object of `coordinates`, 24 numbers or texts of numbers, `kind`, and
 ///     optionally `separation`, `label` and `note`; on curves, `control` and `weights` in place of

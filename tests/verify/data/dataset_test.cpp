@@ -163,7 +163,7 @@ TEST(OpenDataset, OpeningErrorsThrowEvenIfItKeepsGoing) {
   fs::create_symlink("/proc/self/mem", folder.path() / "2vf.csv");
   EXPECT_EQ(opening_error(folder.path() / "2vf.csv"), "2vf.csv: cannot read: Input/output error");
   EXPECT_EQ(opening_error(folder.file("1vf.txt", "")),
-            "1vf.txt: unknown format: only .csv, .csv.zst, .npy, .npz and .obj are datasets");
+            "1vf.txt: unknown format: only .csv, .csv.zst, .npy and .npz are datasets");
   EXPECT_EQ(opening_error(folder.file("empty_vf.csv", "")), "empty_vf.csv: no queries");
   EXPECT_EQ(opening_error(folder.file("empty_vf.npy", "")), "empty_vf.npy: not a NumPy file");
   EXPECT_TRUE(opening_error(folder.file("a.csv", joined(numbered_lines(1, true))))

@@ -1,5 +1,5 @@
-// A query as text, and text as a query: C++, the CSV rows of datasets, JSON, and the lines `v x y z` of OBJ
-// that ipc-toolkit writes; and the part of an address that holds a query.
+// A query as text, and text as a query: C++, the CSV rows of datasets, and JSON; and the part of an address that
+// holds a query.
 
 import { hexadecimalText, parseDouble, rational, rationalText } from "./exact.js";
 
@@ -21,7 +21,6 @@ export const writers = {
     separation: { min_separation, norm },
     coordinates: coordinates.map(hexadecimalText),
   })}\n`,
-  OBJ: ({ coordinates }) => rows(coordinates).map((row) => `v ${row.map(exactDecimal).join(" ")}\n`).join(""),
 };
 
 /// "#q=edge_edge,0,0,…": kind and 24 coordinates, and "&d=0.5&norm=l2" with a minimum separation.

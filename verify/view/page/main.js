@@ -124,7 +124,7 @@ function page() {
       make("div", { class: "scroll", tabindex: "0" }, make("table", { id: "points" }))),
     make("section", { id: "exchange", hidden: step !== null && step.isAtRest },
       make("h2", {}, "Copy and paste"),
-      make("p", {}, "Text of another query (C++, rows of CSV, JSON, OBJ v lines, or 24 numbers), pasted here, is drawn."),
+      make("p", {}, "Text of another query (C++, rows of CSV, JSON, or 24 numbers), pasted here, is drawn."),
       make("div", { class: "choice" },
         ...Object.keys(writers).map((name) => button(copyId(name), `Copy as ${name}`, "", () => copyText(writers[name](look.facts)))),
         button("copy_certificate", "Copy the certificate", "For touchstone-check", () => copyText(look.facts.certificate.text))),
