@@ -1,6 +1,6 @@
 #include "verify/fuzz/contact.hpp"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -161,7 +161,7 @@ void put_heights(Kind kind, const Heights& heights, Query& query) {
   }
 }
 
-// ---- Rounded, apart, sliding --------------------------------------------------------------------
+// ---- Rounded, apart -----------------------------------------------------------------------------
 
 Vector linear(double s, const Vector& a, double t, const Vector& b) { return s * a + t * b; }
 
@@ -186,67 +186,6 @@ Vector draw_offset(const Separation& separation, Random& random) {
   }
   const std::size_t choice = below(random, of_l2.size());
   return (d / lengths.at(choice)) * of_l2.at(choice);
-}
-
-/// A random rotation, not quite orthogonal: the rows of a matrix.
-std::array<Vector, 3> draw_rotation(Random& random) {
-  std::array<double, 4> q{};
-  double length = 0.0;
-  for (double& x : q) {
-    x = random.uniform(-1.0, 1.0);
-    length += x * x;
-  }
-  const double f = 2.0 / length;
-  const auto [w, x, y, z] = q;
-  return {{{1.0 - f * (y * y + z * z), f * (x * y - w * z), f * (x * z + w * y)},
-           {f * (x * y + w * z), 1.0 - f * (x * x + z * z), f * (y * z - w * x)},
-           {f * (x * z - w * y), f * (y * z + w * x), 1.0 - f * (x * x + y * y)}}};
-}
-
-void rotate(Query& query, Random& random) {
-  const std::array<Vector, 3> rotation = draw_rotation(random);
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t point = 0; point < moving_points; ++point) {
-      const Vector p = point_of(query, end, point);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Vector& row = rotation.at(axis);
-        query.at(end, point, axis) = row[0] * p[0] + row[1] * p[1] + row[2] * p[2];
-      }
-    }
-  }
-}
-
-double draw_gap(Random& random) {
-  const double gap = draws::power_of_two(-static_cast<int>(random.between(10, 50)));
-  const double sign = one_in(random, 4) ? -1.0 : 1.0;
-  return sign * gap * random.uniform(1.0, 2.0);
-}
-
-/// The vertex passes along the triangle, in the plane z = 0 but for the gap.
-void put_sliding_vertex(Query& query, Random& random) {
-  const double gap = draw_gap(random), end_gap = random.coin() ? gap : draw_gap(random);
-  for (std::size_t end = 0; end < 2; ++end) {
-    const double far = end == 0 ? -1.0 : 1.0;
-    point_of(query, end, 0) =
-        Vector{far * random.uniform(0.0, 6.0), random.uniform(-1.0, 1.0), end == 0 ? gap : end_gap};
-    point_of(query, end, 1) = Vector{random.uniform(-3.0, -1.0), random.uniform(-3.0, -1.0), 0.0};
-    point_of(query, end, 2) = Vector{random.uniform(1.0, 3.0), random.uniform(-3.0, -1.0), 0.0};
-    point_of(query, end, 3) = Vector{random.uniform(-1.0, 1.0), random.uniform(1.0, 3.0), 0.0};
-  }
-}
-
-/// Two edges along x, at an angle of no more than the gap, that pass along each other.
-void put_sliding_edges(Query& query, Random& random) {
-  const double slope = draw_gap(random);
-  for (std::size_t end = 0; end < 2; ++end) {
-    const double far = end == 0 ? -1.0 : 1.0;
-    const double gap = draw_gap(random), travel = far * random.uniform(0.0, 4.0);
-    point_of(query, end, 0) = Vector{travel - 2.0, 0.0, gap};
-    point_of(query, end, 1) = Vector{travel + 2.0, slope, gap};
-    point_of(query, end, 2) =
-        Vector{random.uniform(-3.0, -1.0), one_in(random, 2) ? 0.0 : slope, 0.0};
-    point_of(query, end, 3) = Vector{random.uniform(1.0, 3.0), 0.0, 0.0};
-  }
 }
 
 /// Level primitives that come to the distance at an end, or stay there.
@@ -284,34 +223,6 @@ Query grid_contact(Kind kind, Random& random) {
   const std::array<double, 3> factors = one_in(random, 3) ? std::array{factor(), factor(), factor()}
                                                           : std::array{common, common, common};
   draws::multiply(query, factors);
-  return query;
-}
-
-Query central_contact(Kind kind, Random& random) {
-  // Their products have more bits than a significand, their sums with the normal do not.
-  const int bits = static_cast<int>(random.between(8, 19));
-  Grid places(random, bits), shapes(random, bits);
-  const Vector p = places.draw(), a = shapes.draw(), b = shapes.draw();
-  const Vector normal = draws::power_of_two(-bits) * a.cross(b);
-  const std::size_t end = below(random, 2);
-  const double way = random.coin() ? 1.0 : -1.0;
-  Query query{};
-  for (std::size_t e = 0; e < 2; ++e) {
-    const Vector first = e == end ? p : Vector(p + way * normal);
-    if (kind == Kind::vertex_face) {
-      point_of(query, e, 0) = first;
-      point_of(query, e, 1) = p - a;
-      point_of(query, e, 2) = p - b;
-      point_of(query, e, 3) = p + (a + b);
-    } else {
-      point_of(query, e, 0) = first - a;
-      point_of(query, e, 1) = first + a;
-      point_of(query, e, 2) = p - b;
-      point_of(query, e, 3) = p + b;
-    }
-  }
-  const double scale = draws::power_of_two(static_cast<int>(random.between(-50, 10)));
-  draws::multiply(query, {scale, scale, scale});
   return query;
 }
 
@@ -368,52 +279,6 @@ Query contact_apart(Kind kind, const Separation& separation, Random& random) {
     }
   }
   return is_finite(moved) ? moved : query;
-}
-
-Query tilting(Kind kind, const Separation& separation, Random& random) {
-  // Sides of about 1 first, and a distance beside them.
-  const int ratio = static_cast<int>(random.between(2, 40));
-  const double distance = draws::power_of_two(-ratio);
-  const Vector p(1, 1, 1), q(1, -1, 0), normal = p.cross(q).normalized();
-  const double ends = random.uniform(5.0, 13.0) * distance,
-               middle = random.uniform(0.2, 1.0) * ends;
-  // det = r·(p × q), and p × q = (1, 1, −2) is 4 times as long as a shift along (1, 1, −1) uses of
-  // it.
-  const Vector r = random.uniform(0.1, 0.45) * (p + q) + middle / 4.0 * Vector(1, 1, -1);
-  // det grows by r·(a × b) from the middle to the ends, and not with the time itself.
-  const Vector along = 0.5 * r.cross(normal);
-  const double sign = r.dot((normal + along).cross(along - normal)) > 0.0 ? 1.0 : -1.0;
-  const Vector a = normal + sign * along, b = sign * along - normal;
-  const double turn = std::sqrt((ends - middle) / r.dot(a.cross(b)));
-  Query query{};
-  for (const std::size_t end : {0U, 1U}) {
-    const double angle = end == 0 ? turn : -turn;
-    const Vector side_p = p + angle * a, side_q = q + angle * b;
-    point_of(query, end, 0) = r;
-    if (kind == Kind::vertex_face) {
-      point_of(query, end, 2) = side_p;
-    } else {
-      point_of(query, end, 1) = r - side_p;
-    }
-    point_of(query, end, 3) = side_q;
-  }
-  const double size = std::ldexp(separation.distance, ratio);
-  Query sized = query;
-  draws::multiply(sized, {size, size, size});
-  return turned(kind, is_finite(sized) ? sized : query, random);
-}
-
-Query sliding(Kind kind, Random& random) {
-  Query query{};
-  if (kind == Kind::vertex_face) {
-    put_sliding_vertex(query, random);
-  } else {
-    put_sliding_edges(query, random);
-  }
-  if (random.coin()) rotate(query, random);
-  const double scale = draws::scale(random);
-  draws::multiply(query, {scale, scale, scale});
-  return turned(kind, query, random);
 }
 
 }  // namespace touchstone::verify::fuzz

@@ -23,10 +23,6 @@ namespace touchstone::verify::fuzz {
 /// A query on a grid that collides.
 [[nodiscard]] Query grid_contact(Kind kind, generate::Random& random);
 
-/// The centres of two edges, or of a triangle and a vertex, meet exactly at an end of the step and
-/// move exactly along the normal, so products with a direction differ by rounding alone.
-[[nodiscard]] Query central_contact(Kind kind, generate::Random& random);
-
 /// A level query that collides.
 [[nodiscard]] Query level_contact(Kind kind, generate::Random& random);
 
@@ -39,16 +35,5 @@ namespace touchstone::verify::fuzz {
 /// bits. \pre distance > 0
 [[nodiscard]] Query contact_apart(Kind kind, const Separation& separation,
                                   generate::Random& random);
-
-/// A polygon r − u p − v q that tilts: it begins and ends some distances d from the origin and is
-/// closest at mid-step, at an interior point (optionally a near miss). Its normal is about as long
-/// as its sides allow. The bounds of the change by a shift of d, from the sides' coordinates, are
-/// therefore sharp, and the determinant's middle Bernstein coefficients are far below its values.
-/// \pre distance > 0
-[[nodiscard]] Query tilting(Kind kind, const Separation& separation, generate::Random& random);
-
-/// Primitives that slide along each other, nearly parallel, in a common plane up to a deviation of
-/// 2^-10 to 2^-50 of their size, which may change its sign.
-[[nodiscard]] Query sliding(Kind kind, generate::Random& random);
 
 }  // namespace touchstone::verify::fuzz

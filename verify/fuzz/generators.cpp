@@ -161,12 +161,6 @@ Query contact_at_level(Kind kind, const GeneratorContext& /*context*/, Random& r
   return query;
 }
 
-Query contact_central(Kind kind, const GeneratorContext& /*context*/, Random& random) {
-  Query query = central_contact(kind, random);
-  if (one_in(random, 4)) nudge(query, random);
-  return query;
-}
-
 Query contact_rounded(Kind kind, const GeneratorContext& /*context*/, Random& random) {
   Query query = rounded_contact(kind, random);
   if (random.coin()) nudge(query, random);
@@ -185,25 +179,6 @@ Query apart(Kind kind, const GeneratorContext& context, Random& random) {
   if (one_in(random, 4)) overshoot(kind, query, random);
   if (random.coin()) nudge(query, random);
   return query;
-}
-
-/// Small multiples of the distance or of a part of it: several events coincide, for instance at an
-/// end, or follow each other closely.
-Query multiples(Kind kind, const GeneratorContext& context, Random& random) {
-  const int exponent = -static_cast<int>(below(random, 3));
-  const double unit = std::ldexp(std::min(context.separation().distance, 0x1p1000), exponent);
-  Query query{};
-  for (double& x : query.coordinates) x = unit * static_cast<double>(random.between(-9, 9));
-  overshoot(kind, query, random);
-  return query;
-}
-
-Query tilt(Kind kind, const GeneratorContext& context, Random& random) {
-  return tilting(kind, context.separation(), random);
-}
-
-Query slide(Kind kind, const GeneratorContext& /*context*/, Random& random) {
-  return sliding(kind, random);
 }
 
 /// The query, or another one if the oracle may take long for it.
@@ -301,22 +276,18 @@ AnyQuery control_points(const QueryShape& shape, const GeneratorContext& context
   return of_numbers(shape, context.separation(), random);
 }
 
-constexpr std::array<Generator, 17> all_generators{{
+constexpr std::array<Generator, 13> all_generators{{
     {"family", lines<family>},
     {"few_bits", lines<few_bits>},
     {"grid", lines<grid>},
     {"shared_vertices", lines<shared_vertices>},
     {"contact_on_grid", lines<contact_on_grid>},
     {"contact_at_level", lines<contact_at_level>},
-    {"contact_central", lines<contact_central>},
     {"contact_rounded", lines<contact_rounded>},
     {"everyday", lines<everyday>},
-    {"sliding", lines<slide>},
     {"mutated", mutate},
     {"scaled", scaled},
     {"apart", lines<apart>, true},
-    {"multiples", lines<multiples>, true},
-    {"tilting", lines<tilt>, true},
     {"curved_family", curved_family, false, true},
     {"control_points", control_points, false, true},
 }};

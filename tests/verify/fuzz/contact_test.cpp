@@ -29,8 +29,8 @@ void for_each_query(Maker make, int count, const Use& use) {
   }
 }
 
-/// The times on a grid are eighths, and earlier contacts of some constructions; those of centres
-/// are at an end; those at one level are anywhere, with full significands.
+/// The times on a grid are eighths, and earlier contacts of some constructions; those at one level
+/// are anywhere, with full significands.
 TEST(Contact, IsContactAlways) {
   const auto times_of = [](Maker make, int count, int& full) {
     std::map<double, int> tois;
@@ -45,9 +45,6 @@ TEST(Contact, IsContactAlways) {
   int full = 0;
   const auto on_grid = times_of(grid_contact, tests::trials(2000), full);
   for (const double eighth : {0.0, 0.125, 0.5, 0.875, 1.0}) EXPECT_TRUE(on_grid.contains(eighth));
-  auto at_ends = times_of(central_contact, tests::trials(400), full);
-  EXPECT_EQ(at_ends.size(), 2U);
-  for (const double end : {0.0, 1.0}) EXPECT_GT(at_ends[end], tests::trials(100)) << end;
   full = 0;
   const int count = tests::trials(2000);
   auto anywhere = times_of(level_contact, count, full);
