@@ -1,11 +1,8 @@
 #include "verify/generate/symmetry.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include "verify/generate/draws.hpp"
@@ -122,10 +119,6 @@ bool write_image(const Symmetry& symmetry, const Queries& query, std::span<doubl
   return true;
 }
 
-std::string list(const std::array<double, 3>& numbers) {
-  return fmt::format("{:a} {:a} {:a}", numbers[0], numbers[1], numbers[2]);
-}
-
 }  // namespace
 
 std::optional<Query> image(const Symmetry& symmetry, const Query& query) {
@@ -164,28 +157,6 @@ Symmetry draw_symmetry(const Queries& query, const Separation& separation, Rando
   if (is_zero(separation) && draws::one_in(random, 3)) multiply(random, symmetry);
   if (draws::one_in(random, 3)) shift(query, random, symmetry);
   return image(symmetry, query) ? symmetry : isometry;
-}
-
-std::string to_text(const Symmetry& symmetry) {
-  static constexpr std::string_view axis_names = "xyz";
-  const Symmetry identity;
-  std::string text;
-  const auto add = [&text](const std::string& part) {
-    text += text.empty() ? "" : ", ";
-    text += part;
-  };
-  if (symmetry.points != identity.points) {
-    const auto& points = symmetry.points;
-    add(fmt::format("points {}{}{}{}", points[0], points[1], points[2], points[3]));
-  }
-  if (symmetry.axes != identity.axes) {
-    const auto& axes = symmetry.axes;
-    add(fmt::format("axes {}{}{}", axis_names[axes[0]], axis_names[axes[1]], axis_names[axes[2]]));
-  }
-  if (symmetry.factors != identity.factors) add("factors " + list(symmetry.factors));
-  if (symmetry.shifts != identity.shifts) add("shifts " + list(symmetry.shifts));
-  if (symmetry.reversed) add("reversed");
-  return text.empty() ? "none" : text;
 }
 
 }  // namespace touchstone::verify::generate

@@ -18,7 +18,6 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "touchstone/query.hpp"
@@ -53,9 +52,5 @@ struct Symmetry {
                                      Random& random);
 [[nodiscard]] Symmetry draw_symmetry(Kind kind, const Query& query, const Separation& separation,
                                      Random& random);
-
-/// "points 0213, axes yxz, factors -1 1 0x1p+3, shifts 0 0 1, reversed": the changes; "none" for
-/// the identity.
-[[nodiscard]] std::string to_text(const Symmetry& symmetry);
 
 }  // namespace touchstone::verify::generate

@@ -2,11 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
-#include <set>
-#include <string>
 #include <vector>
 
 #include "tests/support/trials.hpp"
@@ -32,7 +33,6 @@ Query counting() {
 TEST(Symmetry, IsWhatItSaysAndNothingElse) {
   const Query query = counting();
   EXPECT_EQ(image({}, query), query);
-  EXPECT_EQ(to_text(Symmetry{}), "none");
 
   const Symmetry symmetry{.points = {0, 2, 1, 3},
                           .axes = {1, 0, 2},
@@ -48,9 +48,6 @@ TEST(Symmetry, IsWhatItSaysAndNothingElse) {
       EXPECT_EQ(result.at(1 - end, point, 2), 4.0 * query.at(end, from, 2) + 1.0);
     }
   }
-  EXPECT_EQ(to_text(symmetry),
-            "points 0213, axes yxz, factors -0x1p+0 0x1p+0 0x1p+2, shifts 0x0p+0 0x0p+0 0x1p+0, "
-            "reversed");
 }
 
 TEST(Symmetry, HasNoImageThatIsRounded) {
@@ -70,18 +67,22 @@ TEST(Symmetry, HasNoImageThatIsRounded) {
 TEST(Symmetry, DrawsEveryIngredientAndOnlyExactImages) {
   Random random(1);
   const fuzz::GeneratorContext context({});
-  std::set<std::string> seen;
+  const Symmetry identity;
+  const auto is_beyond_1 = [](double factor) { return std::abs(factor) > 1.0; };
+  std::array<bool, 5> seen{};
   for (int i = 0; i < 2000; ++i) {
     const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
     const Query query = fuzz::generators()[1].make({kind}, context, random).straight();
     const Symmetry symmetry = draw_symmetry(kind, query, {}, random);
-    ASSERT_TRUE(image(symmetry, query)) << to_text(symmetry);
-    const std::string text = to_text(symmetry);
-    for (const std::string part : {"points", "axes", "factors", "shifts", "reversed", "p+3"}) {
-      if (text.find(part) != std::string::npos) seen.insert(part);
+    ASSERT_TRUE(image(symmetry, query));
+    const std::array differs{symmetry.points != identity.points, symmetry.axes != identity.axes,
+                             std::ranges::any_of(symmetry.factors, is_beyond_1),
+                             symmetry.shifts != identity.shifts, symmetry.reversed};
+    for (std::size_t part = 0; part < differs.size(); ++part) {
+      seen.at(part) = seen.at(part) || differs.at(part);
     }
   }
-  EXPECT_EQ(seen.size(), 6U);
+  EXPECT_TRUE(std::ranges::all_of(seen, std::identity{}));
 }
 
 void expect_same_truth(const Queries& query, const Separation& separation,
@@ -89,11 +90,11 @@ void expect_same_truth(const Queries& query, const Separation& separation,
   const exact::Decision truth = exact::decide(query, 0, separation);
   const exact::Decision of_image =
       exact::decide(Queries(query, image(symmetry, query).value()), 0, separation);
-  ASSERT_EQ(truth.collides(), of_image.collides()) << to_text(symmetry);
+  ASSERT_EQ(truth.collides(), of_image.collides());
   if (!truth.collides() || symmetry.reversed) return;
   const exact::DoubleInterval toi = truth.toi->enclosure(), image_toi = of_image.toi->enclosure();
-  EXPECT_EQ(toi.lower, image_toi.lower) << to_text(symmetry);
-  EXPECT_EQ(toi.upper, image_toi.upper) << to_text(symmetry);
+  EXPECT_EQ(toi.lower, image_toi.lower);
+  EXPECT_EQ(toi.upper, image_toi.upper);
 }
 
 TEST(Symmetry, KeepsTheOraclesVerdictAndTime) {
