@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,7 +12,6 @@
 
 #include "verify/data/csv_dataset.hpp"
 #include "verify/fuzz/recheck.hpp"
-#include "verify/generate/random_stream.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"
@@ -81,27 +79,12 @@ std::string options_as_words(const SolverCall& solver) {
   return solver.promise == fast::Promise::exact ? words + " --exact" : words;
 }
 
-/// A fingerprint that distinguishes the queries of one method.
-std::uint64_t fingerprint(const base::AnyQuery& query, const Separation& separation) {
-  const QueryShape& shape = query.shape();
-  auto hash = static_cast<std::uint64_t>(shape.kind);
-  const auto add = [&](std::uint64_t bits) {
-    hash = generate::mix(hash + bits + 0x9e3779b97f4a7c15ULL);
-  };
-  if (!shape.is_straight()) add(2 * shape.degree + (shape.is_rational ? 1 : 0));
-  for (const double x : query.numbers()) add(std::bit_cast<std::uint64_t>(x));
-  add(std::bit_cast<std::uint64_t>(separation.distance));
-  add(static_cast<std::uint64_t>(separation.norm));
-  return hash >> 32U;
-}
-
 /// Commands for a POSIX shell that write the simplest query as a dataset and ask the solver again,
 /// with the same options; `touchstone certify` then judges it.
 std::string command(const Finding& finding, const SolverCall& solver) {
   const FailingCase& failing = finding.simplest;
   const Separation& separation = solver.options.separation;
-  const std::string file = fmt::format("{:08x}-{}.csv", fingerprint(failing.query, separation),
-                                       to_string(failing.query.kind()));
+  const std::string file = fmt::format("finding-{}.csv", to_string(failing.query.kind()));
   // Without more, a label is about contact itself.
   std::optional<bool> label;
   if (is_zero(separation)) label = failing.collides;
