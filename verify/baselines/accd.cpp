@@ -134,7 +134,8 @@ fast::Answer accd_limited(Kind kind, const Query& query, const fast::MethodOptio
 }  // namespace
 
 std::unique_ptr<fast::Method> accd_method() {
-  return baseline_method({.name = "accd", .reference = "li2021", .norms = {Norm::l2}}, accd);
+  return baseline_method({.name = "accd", .reference = "li2021", .norms = {Norm::l2}},
+                         on_lines<accd>);
 }
 
 std::unique_ptr<fast::Method> accd_limited_method() {
@@ -143,7 +144,7 @@ std::unique_ptr<fast::Method> accd_limited_method() {
                           .reference = "li2021",
                           .variant_of = "accd",
                           .norms = {Norm::l2}},
-                         accd_limited);
+                         on_lines<accd_limited>);
 }
 
 }  // namespace touchstone::baselines

@@ -72,7 +72,7 @@ std::unique_ptr<fast::Method> cubic_method() {
                           .terms = {.times = fast::Times::estimates},
                           .reference = "provot1997",
                           .is_tolerance_driven = true},
-                         cubic);
+                         on_lines<cubic>);
 }
 
 }  // namespace touchstone::baselines

@@ -122,7 +122,7 @@ std::unique_ptr<fast::Method> inversion_cubic_method() {
   return baseline_method({.name = "inversion_cubic",
                           .terms = terms_of(fast::Times::estimates),
                           .reference = "smith2015"},
-                         inversion_cubic);
+                         on_lines<inversion_cubic>);
 }
 
 std::unique_ptr<fast::Method> inversion_additive_method() {
@@ -130,7 +130,7 @@ std::unique_ptr<fast::Method> inversion_additive_method() {
                           .terms = terms_of(fast::Times::bounds),
                           .reference = "li2021",
                           .is_tolerance_driven = true},
-                         inversion_additive);
+                         on_lines<inversion_additive>);
 }
 
 }  // namespace touchstone::baselines

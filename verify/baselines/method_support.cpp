@@ -13,21 +13,11 @@
 namespace touchstone::baselines {
 namespace {
 
-fast::Answer call(AnswerFunction answer, const Queries& queries, std::size_t i,
-                  const fast::MethodOptions& options) {
-  return answer(queries.kind, queries.straight()[i], options);
-}
-fast::Answer call(AnyAnswerFunction answer, const Queries& queries, std::size_t i,
-                  const fast::MethodOptions& options) {
-  return answer(queries, i, options);
-}
-
-template <class Function>
-fast::Answer answer_of(Function answer, const Queries& queries, std::size_t i,
+fast::Answer answer_of(AnswerFunction answer, const Queries& queries, std::size_t i,
                        const fast::MethodOptions& options) {
   if (!is_finite(queries.row(i))) return {.verdict = fast::Verdict::error};
   try {
-    return call(answer, queries, i, options);
+    return answer(queries, i, options);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (...) {
@@ -35,10 +25,10 @@ fast::Answer answer_of(Function answer, const Queries& queries, std::size_t i,
   }
 }
 
-template <class Function>
 class BaselineMethod final : public fast::Method {
  public:
-  BaselineMethod(fast::MethodInfo info, Function answer) : info_(std::move(info)), answer_(answer) {
+  BaselineMethod(fast::MethodInfo info, AnswerFunction answer)
+      : info_(std::move(info)), answer_(answer) {
     info_.is_baseline = true;
   }
 
@@ -58,13 +48,8 @@ class BaselineMethod final : public fast::Method {
 
  private:
   fast::MethodInfo info_;
-  Function answer_;
+  AnswerFunction answer_;
 };
-
-template <class Function>
-std::unique_ptr<fast::Method> method_of(fast::MethodInfo&& info, Function answer) {
-  return std::make_unique<BaselineMethod<Function>>(std::move(info), answer);
-}
 
 }  // namespace
 
@@ -91,10 +76,7 @@ double squared_distance_at(Kind kind, const Query& query, double t) {
 }
 
 std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info, AnswerFunction answer) {
-  return method_of(std::move(info), answer);
-}
-std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info, AnyAnswerFunction answer) {
-  return method_of(std::move(info), answer);
+  return std::make_unique<BaselineMethod>(std::move(info), answer);
 }
 
 }  // namespace touchstone::baselines

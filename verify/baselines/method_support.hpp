@@ -16,13 +16,16 @@
 
 namespace touchstone::baselines {
 
-/// A method as a function of one query. It is called with finite coordinates and options that
-/// are_valid(), rounding to nearest.
-using AnswerFunction = fast::Answer (*)(Kind kind, const Query& query,
+/// A method as a function of query i, of a shape that its terms name. It is called with finite
+/// coordinates and options that are_valid(), rounding to nearest.
+using AnswerFunction = fast::Answer (*)(const Queries& queries, std::size_t i,
                                         const fast::MethodOptions& options);
-/// The same of query i, of any shape that the method's terms name.
-using AnyAnswerFunction = fast::Answer (*)(const Queries& queries, std::size_t i,
-                                           const fast::MethodOptions& options);
+
+/// That of a method on straight lines.
+template <fast::Answer (*answer)(Kind, const Query&, const fast::MethodOptions&)>
+fast::Answer on_lines(const Queries& queries, std::size_t i, const fast::MethodOptions& options) {
+  return answer(queries.kind, queries.straight()[i], options);
+}
 
 /// True if the tolerance is positive and finite, the separation finite and not negative, and t_max
 /// in [0,1].
@@ -44,7 +47,5 @@ using AnyAnswerFunction = fast::Answer (*)(const Queries& queries, std::size_t i
 /// yes, without times, if the function throws.
 [[nodiscard]] std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info,
                                                             AnswerFunction answer);
-[[nodiscard]] std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info,
-                                                            AnyAnswerFunction answer);
 
 }  // namespace touchstone::baselines
