@@ -39,6 +39,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "verify/published/bernstein.hpp"
 #include "verify/published/exact_number.hpp"
 #include "verify/published/planar_overlap.hpp"
 #include "verify/published/published.hpp"
@@ -92,10 +93,8 @@ Interval difference(const Query& query, const ImageCorner& corner, std::size_t a
 
 /// a × b · c.
 template <class Number>
-Number volume(const std::array<Number, 3>& a, const std::array<Number, 3>& b,
-              const std::array<Number, 3>& c) {
-  return (a[1] * b[2] - a[2] * b[1]) * c[0] + (a[2] * b[0] - a[0] * b[2]) * c[1] +
-         (a[0] * b[1] - a[1] * b[0]) * c[2];
+Number volume(const Vector<Number>& a, const Vector<Number>& b, const Vector<Number>& c) {
+  return dot(published::cross(a, b), c);
 }
 
 /// The end (x, y, 0) of a segment from 0.
@@ -343,16 +342,14 @@ bool is_culled_by_fixed_planes(std::span<const IntervalPoint> corners) {
 /// The unit normal of three corners' middles; empty if they lie nearly on a line.
 std::optional<std::array<double, 3>> normal_of(std::span<const IntervalPoint> corners,
                                                const Triangle& t) {
-  std::array<std::array<double, 3>, 2> edges{};
+  std::array<Vector<double>, 2> edges{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < 2; ++i) {
       edges[i][axis] = corners[t[i + 1]][axis].estimate() - corners[t[0]][axis].estimate();
     }
   }
-  const auto& [a, b] = edges;
-  std::array<double, 3> n{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                          a[0] * b[1] - a[1] * b[0]};
-  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  Vector<double> n = published::cross(edges[0], edges[1]);
+  const double length = std::sqrt(dot(n, n));
   if (!(length > 0.0 && std::isfinite(length))) return std::nullopt;
   for (double& x : n) x /= length;
   return n;

@@ -31,6 +31,7 @@
 #include <span>
 #include <vector>
 
+#include "verify/published/bernstein.hpp"
 #include "verify/published/published.hpp"
 
 namespace touchstone::verify::published {
@@ -38,19 +39,12 @@ namespace {
 
 using generate::Random;
 using Rational = mpq_class;
-using Point = std::array<Rational, 3>;
+using Point = Vector<Rational>;
 using Triangle = std::array<Point, 3>;
 /// Bilinear, its corners in cyclic order.
 using Patch = std::array<Point, 4>;
 
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 Point operator*(const Rational& x, const Point& a) { return {x * a[0], x * a[1], x * a[2]}; }
-
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Rational dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 bool has_no_area(const Triangle& t) { return cross(t[1] - t[0], t[2] - t[0]) == Point{}; }
 
