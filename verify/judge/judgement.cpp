@@ -136,7 +136,6 @@ void Judgement::add(const Question& question, const GroundTruth& known, const fa
       is_rounded ? truth_of(known.index, exact::decide(asked.queries(), 0, separation)) : known;
   ++queries;
   collisions += truth.collides ? 1U : 0U;
-  checks += answer.checks;
   const auto why = failure != nullptr ? std::optional(*failure) : failure_of(answer);
   const auto lateness = why ? std::nullopt : lateness_of(truth, answer, standard.terms);
   if (lateness) late.add(*lateness);
@@ -206,7 +205,6 @@ Judgement& Judgement::operator+=(const Judgement& next) {
   missing += next.missing;
   if (!first_missing) first_missing = next.first_missing;
   unplaced_crashes += next.unplaced_crashes;
-  checks += next.checks;
   nanoseconds += next.nanoseconds;
   toi_errors += next.toi_errors;
   late += next.late;

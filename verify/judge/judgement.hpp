@@ -126,7 +126,6 @@ struct Judgement {
   /// Processes that the method ended at no particular query (solver_process.hpp): errors, but in no
   /// count of faults.
   std::uint64_t unplaced_crashes = 0;
-  std::uint64_t checks = 0;  ///< steps of the method, summed over the queries, where it counts them
   double nanoseconds = 0.0;  ///< processor time of the method, summed over the queries
   ToiErrors toi_errors;
   LateTimes late;
