@@ -17,12 +17,11 @@ namespace touchstone::verify::view {
 struct Replies {
   /// The answers of all solvers for which the query is within their terms.
   std::vector<judge::GivenAnswer> answers = {};
-  /// The reason why a solver is not asked, a sentence each; for a query on straight lines only the
-  /// reasons of solvers that take none.
+  /// A sentence for each solver that is not asked; on straight lines only for those that take none.
   std::vector<std::string> notes = {};
 };
 
-/// Asks them. Curves of their own are asked in one shape, if there is one (in_one_shape).
+/// Asks them.
 [[nodiscard]] Replies ask(std::span<const solvers::Solver* const> solvers,
                           const ViewedQuery& viewed);
 

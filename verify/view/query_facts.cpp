@@ -75,37 +75,19 @@ nlohmann::json numbers(std::span<const double> values) {
 
 // ---- The points ---------------------------------------------------------------------------------
 
-/// Lists for j = 0 … K, K the greatest degree, of one value for each point: value(curve, j), or
-/// null for curves of lower degree.
-template <class Value>
-nlohmann::json control_lists(const CurvedQuery& curves, const Value& value) {
-  std::size_t count = 0;
-  for (const Trajectory& curve : curves) count = std::max(count, curve.control.size());
-  nlohmann::json lists = nlohmann::json::array();
-  for (std::size_t j = 0; j < count; ++j) {
-    nlohmann::json& list = lists.emplace_back(nlohmann::json::array());
-    for (const Trajectory& curve : curves) {
-      list.push_back(j < curve.control.size() ? value(curve, j) : nlohmann::json());
-    }
-  }
-  return lists;
-}
-
-bool is_rational(const Trajectory& curve) { return !curve.weights.empty(); }
-
-/// Adds `coordinates`; for curves `control`, and `weights` if any of them is rational.
-void add_points(const ViewedQuery& viewed, nlohmann::json& facts) {
-  if (const Query* const query = straight_of(viewed)) {
-    facts["coordinates"] = numbers(query->coordinates);
+/// Adds `coordinates`; for curves `control`, and `weights` if they are rational.
+void add_points(const base::AnyQuery& query, nlohmann::json& facts) {
+  const QueryShape& shape = query.shape();
+  if (shape.is_straight()) {
+    facts["coordinates"] = numbers(query.numbers());
     return;
   }
-  const CurvedQuery curves = curves_of(viewed);
-  facts["control"] = control_lists(
-      curves, [](const Trajectory& curve, std::size_t j) { return numbers(curve.control[j]); });
-  if (std::ranges::none_of(curves, is_rational)) return;
-  facts["weights"] = control_lists(curves, [](const Trajectory& curve, std::size_t j) {
-    return number(is_rational(curve) ? curve.weights[j] : 1.0);
-  });
+  const std::size_t size = shape.numbers_of_point();
+  for (std::size_t i = 0; i < query.numbers().size() / size; ++i) {
+    const auto point = query.numbers().subspan(size * i, size);
+    facts["control"][i / moving_points].push_back(numbers(point.first(3)));
+    if (shape.is_rational) facts["weights"][i / moving_points].push_back(number(point[3]));
+  }
 }
 
 // ---- The truth ----------------------------------------------------------------------------------
@@ -127,9 +109,8 @@ nlohmann::json truth_facts(const exact::Decision& verdict) {
 }
 
 nlohmann::json approach_facts(const ViewedQuery& viewed) {
-  const Query* const query = straight_of(viewed);
-  if (!viewed.with_approach || query == nullptr) return {};
-  const auto approach = nearest_approach(kind_of(viewed), *query);
+  if (!viewed.with_approach || !viewed.query.shape().is_straight()) return {};
+  const auto approach = nearest_approach(viewed.query.kind(), viewed.query.straight());
   if (!approach) return {};
   nlohmann::json facts = moment(approach->time);
   facts["above"] = number(approach->above);
@@ -140,7 +121,8 @@ nlohmann::json approach_facts(const ViewedQuery& viewed) {
 /// The oracle's own certificate. \return nothing where it is beyond the format's limits
 std::string proof_of(const ViewedQuery& viewed, const exact::Decision& verdict) {
   try {
-    return exact::certificate_stream(prove(viewed, verdict), io::printable(viewed.label));
+    return exact::certificate_stream(exact::prove(viewed.query.queries(), 0, verdict),
+                                     io::printable(viewed.label));
   } catch (const exact::CertificateLimitError&) {
     return {};
   }
@@ -167,12 +149,12 @@ std::vector<judge::Fault> faults_of(const judge::GivenAnswer& given,
                                     const judge::Standard& standard, const Judged& judged) {
   const ViewedQuery& viewed = judged.viewed;
   const judge::Failure* const failure = given.failure ? &*given.failure : nullptr;
-  const base::AnyQuery query = in_one_shape(viewed).value();
-  const base::AnyQuery asked = judge::as_asked(standard.terms, query);
+  const base::AnyQuery asked = judge::as_asked(standard.terms, viewed.query);
   const judge::Question question{asked.queries(), viewed.separation};
   const judge::GroundTruth truth =
-      asked == query ? judged.truth
-                     : judge::truth_of(0, exact::decide(question.query, 0, viewed.separation));
+      asked == viewed.query
+          ? judged.truth
+          : judge::truth_of(0, exact::decide(question.query, 0, viewed.separation));
   return judge::judge(question, truth, given.answer, standard, failure);
 }
 
@@ -221,13 +203,13 @@ nlohmann::json answers_of(const Judged& judged, std::span<const judge::GivenAnsw
 }  // namespace
 
 nlohmann::json query_facts(const ViewedQuery& viewed, std::span<const judge::GivenAnswer> asked) {
-  require_contact(kind_of(viewed));
-  const exact::Decision verdict = decide(viewed);
+  require_contact(viewed.query.kind());
+  const exact::Decision verdict = exact::decide(viewed.query.queries(), 0, viewed.separation);
   nlohmann::json notes = nlohmann::json::array();
   for (const std::string& note : viewed.notes) notes.push_back(io::printable(note));
   nlohmann::json facts{
       {"label", io::printable(viewed.label)},
-      {"kind", to_string(kind_of(viewed))},
+      {"kind", to_string(viewed.query.kind())},
       {"min_separation", number(viewed.separation.distance)},
       {"norm", to_string(viewed.separation.norm)},
       {"notes", notes},
@@ -235,7 +217,7 @@ nlohmann::json query_facts(const ViewedQuery& viewed, std::span<const judge::Giv
       {"approach", approach_facts(viewed)},
       {"certificate", certificate_of(viewed, verdict)},
       {"answers", answers_of({.viewed = viewed, .truth = judge::truth_of(0, verdict)}, asked)}};
-  add_points(viewed, facts);
+  add_points(viewed.query, facts);
   return facts;
 }
 
@@ -323,33 +305,31 @@ std::string_view claim_text(checker::Claim claim) {
   }
 }
 
-bool is_straight(const checker::Curve& curve) {
-  return curve.control.size() == 2 && curve.weights.empty();
-}
-
-Trajectory trajectory_of(const checker::Curve& curve) {
-  Trajectory result;
-  for (const checker::Point& point : curve.control) {
-    std::array<double, 3>& control = result.control.emplace_back();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      control.at(axis) = as_double(point.at(axis), "a coordinate");
-    }
-  }
-  for (const mpq_class& weight : curve.weights) {
-    result.weights.push_back(as_double(weight, "a weight"));
-  }
-  return result;
-}
-
 Kind kind_of(checker::Kind kind) {
   if (kind == checker::Kind::tetrahedron) return Kind::tetrahedron;
   return kind == checker::Kind::edge_edge ? Kind::edge_edge : Kind::vertex_face;
 }
 
-OwnCurves curves_of(const checker::Query& query) {
-  OwnCurves result{.kind = kind_of(query.kind)};
-  std::ranges::transform(query.points, result.curves.begin(), trajectory_of);
-  return result;
+/// \throws std::invalid_argument if curves that are not constant differ in degree
+base::AnyQuery query_of(const checker::Query& query) {
+  QueryShape shape{.kind = kind_of(query.kind)};
+  for (const checker::Curve& curve : query.points) {
+    shape.degree = std::max(shape.degree, curve.control.size() - 1);
+    shape.is_rational = shape.is_rational || !curve.weights.empty();
+  }
+  std::vector<double> numbers;
+  for (std::size_t j = 0; j <= shape.degree; ++j) {
+    for (const checker::Curve& curve : query.points) {
+      const std::size_t degree = curve.control.size() - 1, i = std::min(j, degree);
+      if (degree != 0 && degree != shape.degree) {
+        throw std::invalid_argument("its curves differ in degree");
+      }
+      for (const mpq_class& x : curve.control[i]) numbers.push_back(as_double(x, "a coordinate"));
+      if (!shape.is_rational) continue;
+      numbers.push_back(curve.weights.empty() ? 1.0 : as_double(curve.weights[i], "a weight"));
+    }
+  }
+  return {shape, numbers};
 }
 
 }  // namespace
@@ -357,10 +337,7 @@ OwnCurves curves_of(const checker::Query& query) {
 ViewedQuery certified_query(std::string stream) {
   const checker::Certificate certificate = parsed(stream);
   ViewedQuery result{.label = checker::printable(certificate.label),
-                     .query = curves_of(certificate.query)};
-  if (std::ranges::all_of(certificate.query.points, is_straight)) {
-    result.query = in_one_shape(result).value();
-  }
+                     .query = query_of(certificate.query)};
   const auto& [distance, is_l2] = certificate.separation;
   result.separation = {.distance = as_double(distance, "the distance"),
                        .norm = is_l2 ? Norm::l2 : Norm::linf};

@@ -21,7 +21,6 @@ namespace touchstone::verify::view {
 /// in hexadecimal, and rationals "P/Q". A query on curves has no nearest approach, and answers to
 /// it are judged by verdict and times.
 /// \param asked answers that were given now, to be shown behind the recorded ones
-/// \pre answers, of either sort, only to a query in one shape
 /// \throws std::domain_error if a number is NaN or infinite; std::invalid_argument if a curve or
 /// the separation is not valid, or the text not a certificate.
 [[nodiscard]] nlohmann::json query_facts(const ViewedQuery& viewed,
@@ -50,8 +49,8 @@ struct NearestApproach {
 // wrote it.
 
 /// The only certificate of a stream with its query, under its own label.
-/// \throws std::invalid_argument if the text is not a certificate, or a coordinate, a weight or
-/// the distance is not a double.
+/// \throws std::invalid_argument if the text is not a certificate, a coordinate, a weight or the
+/// distance is not a double, or curves that are not constant differ in degree.
 [[nodiscard]] ViewedQuery certified_query(std::string stream);
 
 /// An object of `claim`, `accepted`, `reason` (of the checker, if rejected), `subintervals`, a list

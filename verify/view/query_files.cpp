@@ -46,10 +46,10 @@ class Selection {
   [[nodiscard]] bool is_complete() const { return queries_.size() >= wanted(); }
   /// \throws std::invalid_argument if it is about an element.
   void add(ViewedQuery query) {
-    if (is_element(kind_of(query))) {
+    if (is_element(query.query.kind())) {
       throw std::invalid_argument(fmt::format(
           "view takes vertex-face and edge-edge alone, not a {}: name others by --index",
-          to_string(kind_of(query))));
+          to_string(query.query.kind())));
     }
     queries_.push_back(std::move(query));
   }
@@ -119,26 +119,24 @@ base::AnyQuery straight_from(const nlohmann::json& coordinates, Kind kind) {
 }
 
 /// The curves of `control` and `weights` in a page's form (query_facts).
-OwnCurves curves_from(const nlohmann::json& json, Kind kind) {
+base::AnyQuery curves_from(const nlohmann::json& json, Kind kind) {
   const nlohmann::json& control = json.at("control");
-  if (!control.is_array() || control.empty() || control.size() > greatest_degree + 1) {
-    throw std::invalid_argument("control must be a list for each of 1 to 9 control points");
+  if (!control.is_array() || control.size() < 2 || control.size() > greatest_degree + 1) {
+    throw std::invalid_argument("control must be a list for each of 2 to 9 control points");
   }
-  OwnCurves own{.kind = kind};
+  const QueryShape shape{kind, control.size() - 1, json.contains("weights")};
+  std::vector<double> numbers;
   for (std::size_t j = 0; j < control.size(); ++j) {
     for (std::size_t i = 0; i < moving_points; ++i) {
-      const nlohmann::json& point = control[j].at(i);
-      if (point.is_null() && j > 0) continue;
-      Trajectory& curve = own.curves.at(i);
-      if (curve.control.size() != j) throw std::invalid_argument("a curve has a gap");
-      curve.control.push_back(
-          {number_of(point.at(0)), number_of(point.at(1)), number_of(point.at(2))});
-      if (!json.contains("weights")) continue;
-      curve.weights.push_back(number_of(json.at("weights").at(j).at(i)));
-      if (!(curve.weights.back() > 0.0)) throw std::invalid_argument("a weight is not positive");
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        numbers.push_back(number_of(control[j].at(i).at(axis)));
+      }
+      if (!shape.is_rational) continue;
+      numbers.push_back(number_of(json.at("weights").at(j).at(i)));
+      if (!(numbers.back() > 0.0)) throw std::invalid_argument("a weight is not positive");
     }
   }
-  return own;
+  return {shape, numbers};
 }
 
 Separation separation_of(const nlohmann::json& json) {

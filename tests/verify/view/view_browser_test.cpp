@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -112,33 +113,21 @@ PosedQuery of_any_size(Kind kind) {
   return posed;
 }
 
-/// Curves of different degrees with coordinates of very different sizes; two are rational.
-CurvedQuery odd_curves() {
-  return {{{.control = {{1, 1, 1e200}, {0.1, -1, 0.5}, {3, 1e-300, 0}, {2, 2, 7}},
-            .weights = {1, 0.3, 5, 0x1p-20}},
-           {.control = {{0, 0, 0}, {0.7, 0.2, 5e-324}, {9, -3, 1}}},
-           {.control = {{4, 0.1, 0}}},
-           {.control = {{0, 4, 0}, {1, 5, -2}, {0, 1, 1}, {8, 8, 8}},
-            .weights = {0.1, 0.2, 0.3, 0.4}}}};
-}
-
-/// The same motion on curves of degree 1.
-CurvedQuery as_curves(const Query& query) {
-  CurvedQuery curves;
-  for (std::size_t point = 0; point < moving_points; ++point) {
-    for (const std::size_t end : {0U, 1U}) {
-      curves.at(point).control.push_back(
-          {query.at(end, point, 0), query.at(end, point, 1), query.at(end, point, 2)});
-    }
-  }
-  return curves;
+/// Rational curves with coordinates and weights of very different sizes.
+base::AnyQuery odd_curves() {
+  tests::Random random(8);
+  const QueryShape shape{Kind::vertex_face, 3, true};
+  std::vector<double> numbers(shape.numbers_of_query());
+  for (double& x : numbers) x = std::ldexp(random.uniform(-1.0, 1.0), random.between(-60, 60));
+  for (std::size_t i = 3; i < numbers.size(); i += 4) numbers[i] = random.uniform(0x1p-20, 5.0);
+  return {shape, numbers};
 }
 
 /// The positions of all points at a time, by de Casteljau's algorithm on weights and weighted
 /// positions, as the page writes rationals.
-std::vector<std::string> positions(const CurvedQuery& curves, const Rational& t) {
+std::vector<std::string> positions(const base::AnyQuery& query, const Rational& t) {
   std::vector<std::string> result;
-  for (const Trajectory& curve : curves) {
+  for (const Trajectory& curve : to_curved(query.queries(), 0)) {
     std::vector<std::array<Rational, 4>> row;
     for (std::size_t j = 0; j < curve.control.size(); ++j) {
       const Rational weight(curve.weights.empty() ? 1.0 : curve.weights[j]);
@@ -161,14 +150,13 @@ std::vector<std::string> positions(const CurvedQuery& curves, const Rational& t)
 
 /// Also where the browser has no WebGL, which the pictures need.
 TEST_F(ViewBrowser, TheSliderMovesThePointsExactly) {
-  const Query vertex_face = of_any_size(Kind::vertex_face).query;
-  const Query edge_edge = of_any_size(Kind::edge_edge).query;
-  const std::vector<CurvedQuery> motions{as_curves(vertex_face), as_curves(edge_edge),
-                                         odd_curves()};
-  const std::string page =
-      page_of({{.label = "a", .query = base::AnyQuery(Kind::vertex_face, vertex_face)},
-               {.label = "b", .query = base::AnyQuery(Kind::edge_edge, edge_edge)},
-               {.label = "c", .query = OwnCurves{Kind::vertex_face, odd_curves()}}});
+  const std::vector<base::AnyQuery> motions{
+      {Kind::vertex_face, of_any_size(Kind::vertex_face).query},
+      {Kind::edge_edge, of_any_size(Kind::edge_edge).query},
+      odd_curves()};
+  std::vector<ViewedQuery> viewed;
+  for (const base::AnyQuery& motion : motions) viewed.push_back({.query = motion});
+  const std::string page = page_of(viewed);
   for (const std::string without : {"", "HTMLCanvasElement.prototype.getContext = () => null;"}) {
     const nlohmann::json result = result_on(page, R"(
       choose("format", "rational");
@@ -227,7 +215,7 @@ TEST_F(ViewBrowser, ShowsContactTimeAndSolvers) {
   EXPECT_EQ(first.at("now"), "0.3333333333333333 (toi)");
   EXPECT_EQ(first.at("readout"), "Contact now; nearest at (u, v) = (0.25, 0.25).");
   EXPECT_EQ(first.at("names_there"), nlohmann::json::array({"v", "f0", "f1", "f2", "contact"}));
-  EXPECT_EQ(result.at(1), positions(as_curves(falling().query), Rational(1, 3)));
+  EXPECT_EQ(result.at(1), positions({Kind::vertex_face, falling().query}, Rational(1, 3)));
   const nlohmann::json& second = result.at(2);
   EXPECT_EQ(second.at("verdict"), "vertex-face: free.");
   EXPECT_EQ(second.at("subintervals"), nlohmann::json::array({"face +separated by face +"}));

@@ -2,8 +2,8 @@
 //
 //   label, kind, min_separation, norm, notes
 //   coordinates  24; or of a query on curves:
-//   control      lists for j = 0 … K of the four points' control points j, null where a curve has none
-//   weights      theirs, if any curve is rational
+//   control      lists for j = 0 … K of the four points' control points j
+//   weights      theirs, if the curves are rational
 //   truth        collides, text, toi (with its polynomial), u, v
 //   approach     the least distance without a collision: above, at_most, and the time
 //   certificate  claim, accepted, reason, subintervals, text, given
@@ -25,7 +25,7 @@ const moment = (facts) => ({ ...enclosure(facts), time: parseRational(facts.time
 
 function pointsOf({ coordinates, control, weights }) {
   if (coordinates) return { coordinates: coordinates.map(double) };
-  return { control: control.map((points) => points.map((point) => point && point.map(double))),
+  return { control: control.map((points) => points.map((point) => point.map(double))),
     ...(weights && { weights: weights.map((list) => list.map(double)) }) };
 }
 

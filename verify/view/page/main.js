@@ -259,11 +259,9 @@ function numberText(value) {
 /// The control points, those of the ends with their time; the last ones of all curves are together. \param all a list
 /// for each curve
 function controlGroups(all) {
-  const last = Math.max(...all.map((curve) => curve.length)) - 1;
-  const inner = Array.from({ length: Math.max(last - 1, 0) }, (_, j) =>
-    ({ title: `control ${j + 1}`, values: all.map((curve) => (j + 2 < curve.length ? curve[j + 1] : null)) }));
-  return [{ title: "t = 0", end: 0, values: all.map((curve) => curve[0]) }, ...inner,
-    { title: "t = 1", end: 1, values: all.map((curve) => curve[curve.length - 1]) }];
+  const last = all[0].length - 1;
+  return all[0].map((_, j) => ({ end: { 0: 0, [last]: 1 }[j], title: { 0: "t = 0", [last]: "t = 1" }[j] || `control ${j}`,
+    values: all.map((curve) => curve[j]) }));
 }
 
 function writeTable(state = look.motion.at(look.t)) {
@@ -283,7 +281,7 @@ function writeTable(state = look.motion.at(look.t)) {
     { title: "now", values: state.points, d: state.d }];
   const body = groups.map(({ title, values, d, end }, group) => make("tbody", { id: `at_${title.replace(/[^a-z0-9]+/g, "_")}` },
     make("tr", {}, make("th", { scope: "rowgroup", colspan: columns.length }, title)),
-    ...values.map((point, i) => point && make("tr", {}, make("th", { scope: "row" }, motion.names[i]),
+    ...values.map((point, i) => make("tr", {}, make("th", { scope: "row" }, motion.names[i]),
       ...point.map((x, k) => make("td", {}, cell(x, d, end, i, k))), weightCell(group, i)))));
   find("points").replaceChildren(make("thead", {}, make("tr", {}, ...columns.map((name) => make("th", { scope: "col" }, name)))), ...body);
 }

@@ -28,8 +28,7 @@ export const cross = (a, b) =>
 function curvesOf({ coordinates, control, weights }) {
   const lists = control || [0, 1].map((end) =>
     [0, 1, 2, 3].map((i) => coordinates.slice(12 * end + 3 * i, 12 * end + 3 * i + 3)));
-  return [0, 1, 2, 3].map((i) => lists.filter((list) => list[i] !== null)
-    .map((list, j) => ({ point: list[i], weight: weights ? weights[j][i] : 1 })));
+  return [0, 1, 2, 3].map((i) => lists.map((list, j) => ({ point: list[i], weight: weights ? weights[j][i] : 1 })));
 }
 
 /// The least n ≥ 0 with which all doubles times 2^n are integers, and a double times 2^n.
