@@ -92,7 +92,7 @@ function editor() {
 
 function page() {
   find("view").append(
-    make("header", {}, make("h1", {}, isLive ? "Touchstone playground" : "Touchstone view"), make("p", { id: "common", hidden: true }),
+    make("header", {}, make("h1", {}, isLive ? "Touchstone playground" : "Touchstone view"),
       make("nav", { id: "list", hidden: true, "aria-label": "Queries" })),
     make("p", { id: "nothing", hidden: step !== null || queries.length > 0 }, "Nothing was found: this page has no query."),
     make("section", { id: "step", hidden: step === null }),
@@ -135,15 +135,6 @@ function page() {
         button("draw", "Draw this text", "", draw), make("output", { id: "drawn" }))));
 }
 
-/// The folder that all queries of the page are from, with a slash at its end; empty if there is none.
-const commonFolder = queries.map((facts) => facts.label).reduce((common, label) => {
-  let length = 0;
-  while (length < common.length && common[length] === label[length]) length += 1;
-  return common.slice(0, common.lastIndexOf("/", length - 1) + 1);
-}, queries.length > 1 ? queries[0].label : "");
-
-const shortName = (facts) => (facts.label.startsWith(commonFolder) ? facts.label.slice(commonFolder.length) : facts.label);
-
 // ---- The query that is shown --------------------------------------------------------------------
 
 function show(index) {
@@ -155,8 +146,7 @@ function show(index) {
   const { facts } = look;
   for (const part of ["query", "numbers"]) find(part).hidden = false;
   find("nothing").hidden = true;
-  find("label").textContent = shortName(facts);
-  find("label").title = facts.label;
+  find("label").textContent = facts.label;
   find("notes").replaceChildren(...facts.notes.map((note) => make("li", {}, note)));
   find("star").textContent = facts.truth && facts.truth.toi ? "To contact" : "To the nearest";
   for (const name of Object.keys(writers)) find(copyId(name)).disabled = isCurved(facts);
@@ -187,10 +177,8 @@ function writeVerdict(facts) {
 function writeList() {
   const list = find("list");
   list.hidden = queries.length < 2 || step !== null;
-  find("common").textContent = `Queries of ${commonFolder}`;
-  find("common").hidden = list.hidden || commonFolder === "";
   list.replaceChildren(...queries.map((facts, i) => make("button", { type: "button", "aria-current": i === look.index && "true",
-    onclick: () => show(i) }, make("b", {}, String(i)), ` ${shortName(facts)} `, make("em", {}, badge(facts)))));
+    onclick: () => show(i) }, make("b", {}, String(i)), ` ${facts.label} `, make("em", {}, badge(facts)))));
   const current = list.querySelector("[aria-current]");
   if (current && !list.hidden) list.scrollTop = current.offsetTop - list.offsetTop - 40;
 }
