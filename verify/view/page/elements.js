@@ -13,6 +13,15 @@ export function make(tag, attributes = {}, ...children) {
 
 export const find = (id) => document.getElementById(id);
 
+/// A picture, with a place for names of its points.
+export function figure(id, caption) {
+  return make("figure", { id },
+    make("figcaption", {}, caption),
+    make("div", { class: "canvas" },
+      make("canvas", { tabindex: "0", role: "img", "aria-label": `${caption}. Arrow keys turn it, plus and minus zoom.` }),
+      make("div", { class: "names", "aria-hidden": "true" })));
+}
+
 const seconds = 4;
 
 /// A position that runs to 1 in some seconds.

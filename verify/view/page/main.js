@@ -1,7 +1,7 @@
 // The page: a list of queries, of which one is shown.
 
 import { add, compare, doubleText, hexadecimalText, log2, nearest, one, parseDouble, rational, rationalText, shortText, zero } from "./exact.js";
-import { find, make, Player } from "./elements.js";
+import { figure, find, make, Player } from "./elements.js";
 import { isCurved, momentText, placeText, readFacts, verdictText, withoutAnswer } from "./facts.js";
 import { linkOf, readLink, readQuery, writers } from "./formats.js";
 import { worldOf } from "./frame.js";
@@ -32,14 +32,6 @@ let edited = null;
 let format = "decimal";
 
 // ---- The parts of the page ----------------------------------------------------------------------
-
-function figure(id, caption) {
-  return make("figure", { id },
-    make("figcaption", {}, caption),
-    make("div", { class: "canvas" },
-      make("canvas", { tabindex: "0", role: "img", "aria-label": `${caption}. Arrow keys turn it, plus and minus zoom.` }),
-      make("div", { class: "names", "aria-hidden": "true" })));
-}
 
 /// The button that copies in the format of that name.
 const copyId = (name) => `copy_${name.replace(/\+/g, "p")}`;
@@ -244,8 +236,7 @@ function numberText(value) {
   return (isExact ? "" : "≈ ") + (format === "decimal" ? String(near) : hexadecimalText(near));
 }
 
-/// The control points, those of the ends with their time; the last ones of all curves are together. \param all a list
-/// for each curve
+/// The control points, those of the ends with their time. \param all a list for each curve
 function controlGroups(all) {
   const last = all[0].length - 1;
   return all[0].map((_, j) => ({ end: { 0: 0, [last]: 1 }[j], title: { 0: "t = 0", [last]: "t = 1" }[j] || `control ${j}`,

@@ -45,7 +45,9 @@ function traces({ isStraight }, frames) {
   });
 }
 
-function drawTraces(scene, all) {
+/// \param shapes the polygons at a time, each a list of exact points
+function drawTraces(scene, { motion, window }, shapes) {
+  const all = traces(motion, traceTimes(motion, window).map((t) => shapes(motion.at(t))));
   scene.begin(scene.still);
   scene.setExtent(all.flatMap(({ paths, ends }) => [...paths.flat(), ...ends.flat()].flat()));
   all.forEach((trace, k) => {
@@ -112,11 +114,9 @@ export class MotionPicture {
     this.scene = scene;
   }
 
-  prepare({ motion, window, frame }) {
-    drawTraces(this.scene, traces(motion, traceTimes(motion, window).map((t) => {
-      const state = motion.at(t);
-      return motion.primitives.map((points) => points.map((i) => frame.place(state.points[i], state.d)));
-    })));
+  prepare(seen) {
+    drawTraces(this.scene, seen, (state) =>
+      seen.motion.primitives.map((points) => points.map((i) => seen.frame.place(state.points[i], state.d))));
   }
 
   draw({ motion, state, near, frame, direction, place, text }) {
@@ -154,11 +154,8 @@ export class CornerPicture {
     this.scene = scene;
   }
 
-  prepare({ motion, window, frame }) {
-    drawTraces(this.scene, traces(motion, traceTimes(motion, window).map((t) => {
-      const state = motion.at(t);
-      return [motion.corners(state).map((w) => frame.place(w, state.d))];
-    })));
+  prepare(seen) {
+    drawTraces(this.scene, seen, (state) => [seen.motion.corners(state).map((w) => seen.frame.place(w, state.d))]);
   }
 
   draw({ motion, state, frame, direction, separation, isInside }) {

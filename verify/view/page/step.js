@@ -6,7 +6,7 @@
 // rounded to float relative to the mesh's box; a shown pair is a query of the exact doubles.
 
 import * as THREE from "three";
-import { find, make, Player } from "./elements.js";
+import { figure, find, make, Player } from "./elements.js";
 import { doubleText } from "./exact.js";
 import { looks, outline, sides } from "./pictures.js";
 import { Scene, styleColor } from "./scene.js";
@@ -315,11 +315,7 @@ export class StepPart {
       make("h2", {}, step.label),
       make("p", {}, make("strong", { id: "step_verdict" }, `${step.total === 0 ? `No ${one}` : count + first}${separation}.`), ` ${elements}.`),
       make("div", { class: "step" },
-        make("figure", { id: "mesh" },
-          make("figcaption", {}, `The mesh; a diamond at the place of each ${one}${step.isAtRest ? "" : ", full after its time of impact"}`),
-          make("div", { class: "canvas" },
-            make("canvas", { tabindex: "0", role: "img", "aria-label": "The mesh. Arrow keys turn it, plus and minus zoom." }),
-            make("div", { class: "names" }))),
+        figure("mesh", `The mesh; a diamond at the place of each ${one}${step.isAtRest ? "" : ", full after its time of impact"}`),
         make("div", {},
           make("ol", { id: "pairs", tabindex: "0", "aria-label": step.isAtRest ? "Intersections" : "Collisions, by time" },
             ...step.pairs.slice(0, listed).map((pair, i) => make("li", {}, make("button", { type: "button", onclick: () => this.choose(i) },
