@@ -8,21 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "verify/data/plain_rows.hpp"
 #include "verify/io/coordinate_text.hpp"
 #include "verify/io/csv.hpp"
 #include "verify/io/number_text.hpp"
 
 namespace touchstone::verify::data {
 namespace {
-
-/// The size of the text that is searched for plain rows; as a rule it has more than eight.
-constexpr std::size_t plain_bytes = 4096;
-
-/// True if a line certainly is neither blank nor a header.
-bool begins_like_a_row(std::string_view text) {
-  return !text.empty() && (text.front() == '-' || (text.front() >= '0' && text.front() <= '9'));
-}
 
 /// True if it can be the name of a column.
 bool is_name(std::string_view text) {
@@ -61,7 +52,6 @@ CsvDataset::CsvDataset(const std::filesystem::path& path, const DatasetOptions& 
 
 /// Skips blank lines and headers between two queries.
 bool CsvDataset::at_end() {
-  if (!ahead_ && begins_like_a_row(lines_.peek(plain_bytes))) return false;
   while (!ahead_) {
     ahead_ = lines_.next();
     if (!ahead_) return true;
@@ -109,14 +99,6 @@ bool CsvDataset::is_format(std::size_t columns) const {
 }
 
 DatasetSource::StoredQuery CsvDataset::read(std::uint64_t) {
-  if (columns_ && !ahead_ && shape().is_straight()) {
-    if (const auto plain = read_plain_rows(lines_.peek(plain_bytes), *columns_, options().round)) {
-      const io::FilePosition first{.line = lines_.line_number() + 1, .column = *columns_};
-      lines_.skip(plain->bytes, query_points);
-      rounded_ += plain->rounded;
-      return {.query = {kind(), plain->query}, .label = plain->label, .label_position = first};
-    }
-  }
   Rows rows{.query = {.query = {shape(), std::vector<double>(shape().numbers_of_query())},
                       .label = std::nullopt,
                       .label_position = {}},

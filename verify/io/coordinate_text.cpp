@@ -1,14 +1,16 @@
 #include "verify/io/coordinate_text.hpp"
 
-#include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <system_error>
 
 #include "touchstone/number.hpp"
 #include "verify/io/dataset_error.hpp"
+#include "verify/io/number_text.hpp"
 
 namespace touchstone::verify::io {
 namespace {
@@ -17,13 +19,14 @@ using Part = CoordinateError::Part;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The text as an integer of any length; empty if it is none.
-std::optional<exact::Integer> any_integer(std::string_view text) {
-  const bool has_sign = text.starts_with('-') || text.starts_with('+');
-  const std::string_view digits = text.substr(has_sign ? 1 : 0);
-  if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit)) return std::nullopt;
-  exact::Integer magnitude(std::string(digits), 10);
-  return text.starts_with('-') ? exact::Integer(-magnitude) : magnitude;
+/// n / 2^k with |n| ≤ 2^53 and k < 64, which a division of doubles gives; nothing of other texts.
+std::optional<double> plain_quotient(std::string_view numerator, std::string_view denominator) {
+  constexpr std::int64_t greatest = std::int64_t{1} << std::numeric_limits<double>::digits;
+  const auto n = number_from_text<std::int64_t>(numerator);
+  if (!n || *n < -greatest || *n > greatest) return std::nullopt;
+  const auto d = number_from_text<std::uint64_t>(denominator);
+  if (!d || !std::has_single_bit(*d)) return std::nullopt;
+  return static_cast<double>(*n) / static_cast<double>(*d);
 }
 
 /// What the standard library makes of a text: empty if it is no number.
@@ -44,31 +47,11 @@ exact::Rational any_number(std::string_view text, Part part) {
   }
 }
 
-/// The quotient if it is a double and the denominator a power of two: odd · 2^exponent, where `odd`
-/// fits a significand and the bits lie between the ends of the range. Nothing otherwise.
-std::optional<double> dyadic_quotient(const exact::Integer& n, const exact::Integer& d) {
-  using Limits = std::numeric_limits<double>;
-  if (n == 0) return 0.0;
-  if (d < 0 || mpz_popcount(d.get_mpz_t()) != 1) return std::nullopt;
-  const auto zeros = [](const exact::Integer& x) {
-    return static_cast<long>(mpz_scan1(x.get_mpz_t(), 0));
-  };
-  const auto bits = static_cast<long>(mpz_sizeinbase(n.get_mpz_t(), 2)) - zeros(n);
-  const long exponent = zeros(n) - zeros(d);
-  if (bits > Limits::digits || exponent < Limits::min_exponent - Limits::digits ||
-      bits + exponent > Limits::max_exponent) {
-    return std::nullopt;
-  }
-  const exact::Integer odd = n >> static_cast<mp_bitcnt_t>(zeros(n));
-  return std::ldexp(odd.get_d(), static_cast<int>(exponent));
-}
-
 }  // namespace
 
 ParsedCoordinate parse_coordinate(std::string_view numerator, std::string_view denominator) {
-  const std::optional<exact::Integer> n = any_integer(numerator), d = any_integer(denominator);
-  if (n && d && *d != 0) {
-    if (const auto value = dyadic_quotient(*n, *d)) return {.value = *value, .exact = true};
+  if (const auto plain = plain_quotient(numerator, denominator)) {
+    return {.value = *plain, .exact = true};
   }
   exact::Rational quotient = any_number(numerator, Part::numerator);
   const exact::Rational divisor = any_number(denominator, Part::denominator);

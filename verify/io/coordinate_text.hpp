@@ -5,10 +5,8 @@
 /// decimal of any length, whose quotient is a double. A coordinate in one field has the denominator
 /// 1.
 ///
-/// Integers over a power of two need a comparison of bits: n / 2^k with n = odd · 2^j is a double
-/// if `odd` has at most 53 bits and lies between the ends of the range. All other pairs, and all
+/// Most pairs are n / 2^k with |n| ≤ 2^53 and k < 64: a double, by one division. All others, and
 /// decimals, go through rationals, where the nearest double is compared with the number itself.
-/// (verify/data/plain_rows.hpp reads most pairs faster.)
 
 #include <stdexcept>
 #include <string>

@@ -1,13 +1,10 @@
 /// \file
-/// Texts of numbers: number_text.hpp, coordinate_text.hpp, and the faster path of
-/// plain_rows.hpp. The judge is rational arithmetic.
+/// Texts of numbers: number_text.hpp and coordinate_text.hpp. The judge is rational arithmetic.
 
 #include "verify/io/number_text.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -20,7 +17,6 @@
 
 #include "touchstone/number.hpp"
 #include "verify/data/ground_truth_files.hpp"
-#include "verify/data/plain_rows.hpp"
 #include "verify/io/coordinate_text.hpp"
 #include "verify/io/dataset_error.hpp"
 
@@ -43,46 +39,15 @@ std::string fault_of(std::string_view numerator, std::string_view denominator = 
   return "no error";
 }
 
-/// What plain rows say of eight rows "0,…,0" but for one coordinate.
-std::optional<data::PlainRows> plain_rows(const std::string& numerator,
-                                          const std::string& denominator, bool round,
-                                          std::size_t place = 13) {
-  const bool has_denominator = !denominator.empty();
-  std::string text;
-  for (std::size_t i = 0; i < 24; ++i) {
-    if (i == place) {
-      text += has_denominator ? numerator + ',' + denominator : numerator;
-    } else {
-      text += has_denominator ? "0,1" : "0";
-    }
-    text += i % 3 == 2 ? '\n' : ',';
-  }
-  const auto rows = data::read_plain_rows(text + std::string(data::plain_rows_margin, '\n'),
-                                          has_denominator ? 6 : 3, round);
-  if (rows) {
-    EXPECT_EQ(rows->bytes, text.size());
-  }
-  return rows;
-}
-
-/// Expects the nearest double to the quotient; so do plain rows, if they take it. True if they do.
-bool expect_nearest(const std::string& numerator, const std::string& denominator, bool round,
-                    std::size_t place = 13) {
+/// Expects the nearest double to the quotient.
+void expect_nearest(const std::string& numerator, const std::string& denominator = "1") {
   SCOPED_TRACE(numerator + " / " + denominator);
-  const std::string over = denominator.empty() ? "1" : denominator;
   const exact::Rational quotient =
-      exact::rational_from_decimal(numerator) / exact::rational_from_decimal(over);
-  const ParsedCoordinate parsed = parse_coordinate(numerator, over);
+      exact::rational_from_decimal(numerator) / exact::rational_from_decimal(denominator);
+  const ParsedCoordinate parsed = parse_coordinate(numerator, denominator);
   EXPECT_EQ(parsed.value, exact::round_to_nearest(quotient));
   EXPECT_EQ(parsed.exact, exact::Rational(parsed.value) == quotient);
   EXPECT_FALSE(std::signbit(parsed.value) && parsed.value == 0.0);
-  const auto plain = plain_rows(numerator, denominator, round, place);
-  if (!plain) return false;
-  EXPECT_EQ(std::bit_cast<std::uint64_t>(plain->query.coordinates.at(place)),
-            std::bit_cast<std::uint64_t>(parsed.value));
-  EXPECT_EQ(plain->rounded, parsed.exact ? 0U : 1U);
-  EXPECT_TRUE(parsed.exact || round);
-  return true;
 }
 
 /// Signs, leading zeros, fractions of any terms, decimals that are doubles and others, and both
@@ -104,7 +69,7 @@ TEST(Coordinate, IsTheNearestDouble) {
       "/1");
   for (std::string fraction; fractions >> fraction;) {
     const std::size_t slash = fraction.find('/');
-    expect_nearest(fraction.substr(0, slash), fraction.substr(slash + 1), true);
+    expect_nearest(fraction.substr(0, slash), fraction.substr(slash + 1));
   }
   // clang-format off
   const std::vector<std::string> numbers{
@@ -117,8 +82,8 @@ TEST(Coordinate, IsTheNearestDouble) {
       "125E-2"};
   // clang-format on
   for (const std::string& number : numbers) {
-    for (const char* denominator : {"", "1", "2", "1024", "1.0", "3"}) {
-      for (const bool round : {false, true}) expect_nearest(number, denominator, round);
+    for (const char* denominator : {"1", "2", "1024", "1.0", "3"}) {
+      expect_nearest(number, denominator);
     }
   }
   for (const std::string& beyond : {half_past, text_of(-power(1024)), std::string("-1.8e308")}) {
@@ -143,83 +108,15 @@ TEST(Coordinate, IsTheNearestDoubleOfRandomFractions) {
              {n, odd},
              {-n * power(random() % 20), power(random() % 80) + random() % 3},
              {n * odd * power(random() % 80), odd * power(random() % 80)}}) {
-      expect_nearest(text_of(numerator), text_of(denominator), i % 2 == 0);
+      expect_nearest(text_of(numerator), text_of(denominator));
     }
     const std::string digits(1 + random() % 30, static_cast<char>('1' + random() % 9));
-    expect_nearest(text_of(n), digits, i % 2 == 0);
-  }
-}
-
-/// Fractions of doubles and of floats, and decimals of up to 19 digits.
-TEST(PlainRows, TakeOrdinaryNumbers) {
-  std::mt19937_64 random(1);
-  const auto random_double = [&random](int least, int greatest) {
-    const double fraction = std::ldexp(static_cast<double>(random() >> 11U), -53);
-    const auto range = static_cast<std::uint64_t>(greatest - least + 1);
-    const int exponent = least + static_cast<int>(random() % range);
-    return std::ldexp(random() % 2 == 0 ? fraction : -fraction, exponent);
-  };
-  for (int i = 0; i < 20000; ++i) {
-    const double wide = random_double(-900, 62);
-    const exact::Rational exact(i % 2 == 0 ? wide : static_cast<double>(static_cast<float>(wide)));
-    EXPECT_TRUE(expect_nearest(text_of(exact.get_num()), text_of(exact.get_den()), false,
-                               static_cast<std::size_t>(i) % 24));
-    const double x = random_double(-900, 20), near_one = random_double(-10, 20);
-    for (const int digits : {1, 5, 9, 17}) {
-      EXPECT_TRUE(expect_nearest(fmt::format("{:.{}e}", x, digits), "", true));
-    }
-    EXPECT_TRUE(expect_nearest(fmt::format("{:.10f}", near_one), "", true));
-    EXPECT_TRUE(
-        expect_nearest(fmt::format("{}", std::ldexp(std::round(near_one * 64), -6)), "", false));
-  }
-}
-
-TEST(PlainRows, LeaveEverythingElse) {
-  for (const std::string bad :
-       {"+1", "\"1\"", "inf", "1e309", "12345678901234567890", "\t1", "1:"}) {
-    EXPECT_FALSE(plain_rows(bad, "", true)) << bad;
-    EXPECT_FALSE(plain_rows(bad, "1", true)) << bad;
-    EXPECT_FALSE(plain_rows("1", bad, true)) << bad;
-  }
-  for (const std::string bad : {"0", "3", "-1", "1.0", "18446744073709551617"}) {
-    EXPECT_FALSE(plain_rows("1", bad, true)) << bad;
-  }
-  EXPECT_FALSE(plain_rows("1", text_of(power(1022)), true));
-  EXPECT_FALSE(plain_rows("0.1", "", false));
-  EXPECT_FALSE(plain_rows("0.1", "2", true));
-}
-
-TEST(PlainRows, LeaveRowsThatAreNotWhole) {
-  const std::string margin(data::plain_rows_margin + 1, ' ');
-  for (const std::string end : {"\n", "\r\n"}) {
-    std::string text;
-    for (int row = 0; row < 8; ++row) text += "1,1,-5,2,7,4,1" + end;
-    const auto rows = data::read_plain_rows(text + margin, 7, false);
-    ASSERT_TRUE(rows.has_value());
-    EXPECT_TRUE(rows->label.value());
-    EXPECT_EQ(rows->bytes, text.size());
-    EXPECT_EQ(rows->query.at(1, 3, 1), -2.5);
-    // A cut at each place; only the one that is there is read.
-    for (std::size_t length = 0; length < text.size() + data::plain_rows_margin; ++length) {
-      const std::string cut = (text + margin).substr(0, length);
-      const std::vector<char> bytes(cut.begin(), cut.end());
-      EXPECT_FALSE(data::read_plain_rows({bytes.data(), bytes.size()}, 7, false)) << length;
-    }
-    std::string spaced = text, differing = text + margin;
-    for (std::size_t at = 0; (at = spaced.find(",1,", at)) != std::string::npos; at += 4) {
-      spaced.insert(at + 1, "  ");
-    }
-    EXPECT_EQ(data::read_plain_rows(spaced + margin, 7, false).value().query, rows->query);
-    differing[differing.rfind('1')] = '0';
-    EXPECT_FALSE(data::read_plain_rows(differing, 7, false));
-    for (const std::size_t columns : {6U, 4U}) {
-      EXPECT_FALSE(data::read_plain_rows(text + margin, columns, false));
-    }
+    expect_nearest(text_of(n), digits);
   }
 }
 
 /// A text, its number, the parsers that take it (c coordinates, n numbers, u whole numbers of 64
-/// bits, d distances, p plain rows; m: it is meant as a number), and why coordinates refuse it.
+/// bits, d distances; m: it is meant as a number), and why coordinates refuse it.
 struct Text {
   std::string text;
   double number;
@@ -231,17 +128,17 @@ TEST(NumberText, IsReadAlikeByAllParsersThatTakeIt) {
   const double nan = Limits::quiet_NaN(), infinity = Limits::infinity();
   const std::string beyond = "beyond the range, exponents up to 10000",
                     infinite = "not a finite number";
-  std::vector<Text> texts{{"0.5", 0.5, "cndpm"},
-                          {"0.1", 0.1, "cndpm"},
-                          {"1e-8", 1e-8, "cndpm"},
+  std::vector<Text> texts{{"0.5", 0.5, "cndm"},
+                          {"0.1", 0.1, "cndm"},
+                          {"1e-8", 1e-8, "cndm"},
                           {"5e-324", Limits::denorm_min(), "cndm"},
-                          {"0", 0.0, "cnudpm"},
+                          {"0", 0.0, "cnudm"},
                           {"+18446744073709551615", 0x1p64, "cnudm"},
                           {"18446744073709551616", 0x1p64, "cndm"},
-                          {"-0.0", 0.0, "cndpm"},
-                          {"0e7", 0.0, "cndpm"},
-                          {"-1.5e3", -1500.0, "cnpm"},
-                          {"-1e-300", -1e-300, "cnpm"},
+                          {"-0.0", 0.0, "cndm"},
+                          {"0e7", 0.0, "cndm"},
+                          {"-1.5e3", -1500.0, "cnm"},
+                          {"-1e-300", -1e-300, "cnm"},
                           {"+1.5e-3", 1.5e-3, "cndm"},
                           {"0x1.8p-3", 0.1875, "dm"},
                           {"0x0p0", 0.0, "dm"},
@@ -256,7 +153,7 @@ TEST(NumberText, IsReadAlikeByAllParsersThatTakeIt) {
                           {"-1e-999999999", nan, "m", beyond},
                           {"1e99999999999999999999999", nan, "m", beyond},
                           {std::string("1\0", 2), nan, "m"},
-                          {" 1", 1.0, "p"}};
+                          {" 1", nan, ""}};
   for (const char* const malformed :
        {"--1", "+-1", "-+1", "++1", "1.5.0", "1e", "1e3.5", "1 2", "1,5", "1a", "1 ", "1e99999x"}) {
     texts.push_back({malformed, nan, "m"});
@@ -267,10 +164,6 @@ TEST(NumberText, IsReadAlikeByAllParsersThatTakeIt) {
   const auto coordinate = [](const std::string& text) {
     return fault_of(text) == "no error" ? std::optional(parse_coordinate(text, "1").value)
                                         : std::nullopt;
-  };
-  const auto plain = [](const std::string& text) {
-    const auto rows = plain_rows(text, "", true);
-    return rows ? std::optional(rows->query.coordinates.at(13)) : std::nullopt;
   };
   for (const auto& [text, number, takers, reason] : texts) {
     SCOPED_TRACE(text);
@@ -286,8 +179,7 @@ TEST(NumberText, IsReadAlikeByAllParsersThatTakeIt) {
     const std::vector<std::pair<char, std::optional<double>>> readings{
         {'c', coordinate(text)},
         {'n', number_from_text<double>(text)},
-        {'d', data::distance_from_text(text)},
-        {'p', plain(text)}};
+        {'d', data::distance_from_text(text)}};
     for (const auto& [parser, value] : readings) {
       ASSERT_EQ(value.has_value(), is_taken_by(parser)) << parser;
       if (!value) continue;
