@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import functools
+import html
 import importlib
 import numbers
 import operator
 import reprlib
 from decimal import Decimal
 from types import ModuleType
-from typing import Any, Callable, Dict, Literal, Tuple, TypeVar, cast, get_args
+from typing import Any, Callable, Dict, Iterable, Literal, Sequence, Tuple, TypeVar, cast, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -34,6 +35,14 @@ class Interrupted(KeyboardInterrupt):
         done = f" after {len(result)} queries" if isinstance(result, BatchResult) else ""
         super().__init__(f"interrupted{done}; what is done is in .result of this exception")
         self.result = result
+
+
+def interruptible(work: Callable[[], Any]) -> Any:
+    """Return what work returns; Ctrl-C ends it by `Interrupted`."""
+    try:
+        return work()
+    except KeyboardInterrupt as interrupt:
+        raise Interrupted() from interrupt
 
 
 def _wrong_type(reason: str, value: Any) -> TypeError:
@@ -240,6 +249,15 @@ def load(name: str) -> ModuleType:
         ) from error
 
 
+def html_table(head: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
+    """Return a table for notebooks."""
+    cells = "".join(f"<th>{html.escape(name)}</th>" for name in head)
+    body = "".join(
+        "<tr>" + "".join(f"<td>{html.escape(str(cell))}</td>" for cell in row) + "</tr>" for row in rows
+    )
+    return f"<table><tr>{cells}</tr>{body}</table>"
+
+
 class Column(property):
     """A field of the array of a `BatchResult`, as an attribute of the field's name."""
 
@@ -313,9 +331,4 @@ class BatchResult:
         """Return a table of the first ten results, for notebooks."""
         names = self.array.dtype.names or ()
         rows = np.atleast_1d(self.array)[:10]
-        head = "".join(f"<th>{name}</th>" for name in names)
-        body = "".join(
-            f"<tr><td>{i}</td>" + "".join(f"<td>{row[name]}</td>" for name in names) + "</tr>"
-            for i, row in enumerate(rows)
-        )
-        return f"<p>{self!r}</p><table><tr><th></th>{head}</tr>{body}</table>"
+        return f"<p>{self!r}</p>" + html_table(["", *names], ([i, *row] for i, row in enumerate(rows)))

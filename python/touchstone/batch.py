@@ -226,7 +226,19 @@ def solve(
     if method is not None:
         if toi_tolerance is not None:
             raise ValueError("toi_tolerance is an option of the certified solver; a method by name has tolerance")
-        return _solve_by(method, kind, queries, separation, norm, tolerance, max_checks, t_max, threads, progress, out)
+        module = load("_exact")
+        limits = 1e-6 if tolerance is None else tolerance, 1_000_000 if max_checks is None else max_checks
+        return run_batch(
+            Answers,
+            np.dtype(module.answer_layout()),
+            queries,
+            progress,
+            out,
+            lambda array, items, callback: module.solve(
+                method, kind, array, items, separation, norm, *limits, t_max, threads, callback
+            ),
+            curves=True,
+        )
     if tolerance is not None or max_checks is not None:
         raise ValueError("tolerance and max_checks are options of a method by name; the certified solver has toi_tolerance")
     width = 1e-12 if toi_tolerance is None else toi_tolerance
@@ -239,32 +251,6 @@ def solve(
         lambda array, items, callback: _fast.certified(
             kind, array, items, separation, norm, width, t_max, threads, callback
         ),
-        curves=True,
-    )
-
-
-def _solve_by(
-    method: str,
-    kind: Kind,
-    queries: npt.ArrayLike,
-    separation: float,
-    norm: Norm,
-    tolerance: float | None,
-    max_checks: int | None,
-    t_max: float,
-    threads: int,
-    progress: bool | None,
-    out: Answers | None,
-) -> Answers:
-    module = load("_exact")
-    options = separation, norm, 1e-6 if tolerance is None else tolerance, 1_000_000 if max_checks is None else max_checks
-    return run_batch(
-        Answers,
-        np.dtype(module.answer_layout()),
-        queries,
-        progress,
-        out,
-        lambda array, items, callback: int(module.solve(method, kind, array, items, *options, t_max, threads, callback)),
         curves=True,
     )
 

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm
-from ._input import as_doubles, as_queries, checked, column, load
+from ._input import as_doubles, as_queries, checked, column, interruptible, load
 from ._tool import Progress
 
 
@@ -351,12 +351,8 @@ def check(
     ValueError
         If the claim is none.
     """
-    try:
-        report = load("_exact").check(
-            certificates, scenes, claim, None if separation is None else separation.hex(), norm, rules
-        )
-    except KeyboardInterrupt as interrupt:
-        raise Interrupted() from interrupt
+    distance = None if separation is None else separation.hex()
+    report = interruptible(lambda: load("_exact").check(certificates, scenes, claim, distance, norm, rules))
     report["rejections"] = tuple(Rejection(*one) for one in report["rejections"])
     return CheckReport(**report)
 

@@ -11,12 +11,12 @@ import pickle
 import sys
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, Callable, Dict, Iterable, List, Literal, Sequence, Union
+from typing import Any, Callable, Dict, List, Literal, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from ._input import Booleans, Doubles, Interrupted, Kind, Norm, as_queries, checked, load
+from ._input import Booleans, Doubles, Interrupted, Kind, Norm, as_queries, checked, html_table, interruptible, load
 from ._tool import FOLDER, Run
 
 Promise = Literal["conservative", "exact"]
@@ -100,10 +100,7 @@ def read(path: PathLike, *, kind: Kind | None = None, round: bool = False) -> Qu
     """
     os.stat(path)
     module = load("_data")
-    try:
-        found = _in_our_words(lambda: module.read(os.fsencode(path), kind, round))
-    except KeyboardInterrupt as interrupt:
-        raise Interrupted() from interrupt
+    found = interruptible(lambda: _in_our_words(lambda: module.read(os.fsencode(path), kind, round)))
     return _queries_from(found, str(path))
 
 
@@ -180,10 +177,7 @@ def generate(
     """
     if min(count, seed) < 0:
         raise ValueError("count and seed must not be negative")
-    try:
-        found = load("_data").generate(kind, family, seed, count, separation, norm)
-    except KeyboardInterrupt as interrupt:
-        raise Interrupted() from interrupt
+    found = interruptible(lambda: load("_data").generate(kind, family, seed, count, separation, norm))
     return [_queries_from(one, name) for name, one in found]
 
 
@@ -250,14 +244,6 @@ def _common_arguments(
         arguments += ["--min-separation", separation.hex()]
     # Without one it is that of the data, whose norm is recorded; of contact, the norm of tolerances.
     return arguments if separation is None and norm == "l2" else [*arguments, "--norm", norm]
-
-
-def _table(head: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
-    cells = "".join(f"<th>{html.escape(name)}</th>" for name in head)
-    body = "".join(
-        "<tr>" + "".join(f"<td>{html.escape(str(cell))}</td>" for cell in row) + "</tr>" for row in rows
-    )
-    return f"<table><tr>{cells}</tr>{body}</table>"
 
 
 # ---- Judge ----------------------------------------------------------------------------------------
@@ -333,8 +319,8 @@ class Judgement:
         counts = [(k, v) for k, v in self.method.items() if isinstance(v, (int, str)) and k != "name"]
         first = [(w.source, w.index, w.kind, w.fault, w.answer, w.truth) for w in self.wrong[:10]]
         head = ["source", "query", "kind", "fault", "answer", "truth"]
-        text = f"<p>{html.escape(repr(self))}</p>" + _table(["fault", "answers"], counts)
-        return text + (_table(head, first) if first else "")
+        text = f"<p>{html.escape(repr(self))}</p>" + html_table(["fault", "answers"], counts)
+        return text + (html_table(head, first) if first else "")
 
 
 Data = Union[PathLike, Queries, Sequence[Queries], None]
@@ -541,7 +527,7 @@ class FuzzReport:
     def _repr_html_(self) -> str:
         """Return a table for notebooks."""
         rows = [(one.what, one.kind, one.truth, one.detail) for one in self.findings]
-        return f"<p>{html.escape(repr(self))}</p>" + _table(["fault", "kind", "truth", "detail"], rows)
+        return f"<p>{html.escape(repr(self))}</p>" + html_table(["fault", "kind", "truth", "detail"], rows)
 
 
 @checked

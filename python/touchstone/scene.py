@@ -7,16 +7,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, Callable, Literal, Mapping, Tuple, TypeVar
+from typing import Any, Callable, Literal, Mapping, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
-from ._input import Doubles, Interrupted, Norm, as_doubles, as_indices, as_motion, as_vertices, checked, load
+from ._input import Doubles, Norm, as_doubles, as_indices, as_motion, as_vertices, checked, interruptible, load
 from ._tool import Progress
 
 _fast: Any = load("_fast")
-Value = TypeVar("Value")
 Indices = npt.NDArray[np.int32]
 
 
@@ -163,15 +162,8 @@ def _proved(
     if _fast.is_forked():
         threads = 1  # the others of the pool are in the parent
     with Progress(title, show, queries=1000) as bar:
-        claim, rules, certificate = _ending_with_interrupts(lambda: prove(*arguments, threads, label, bar.callback))
+        claim, rules, certificate = interruptible(lambda: prove(*arguments, threads, label, bar.callback))
     return SceneProof(claim, rules, label, certificate)
-
-
-def _ending_with_interrupts(work: Callable[[], Value]) -> Value:
-    try:
-        return work()
-    except KeyboardInterrupt as interrupt:
-        raise Interrupted() from interrupt
 
 
 def _as_thickness(
@@ -229,18 +221,8 @@ class Step:
         vertex of one and a vertex of the other that are in groups that can collide. It must be
         symmetric. It is called for the pairs found, from several threads, one at a time; what it
         raises ends the search.
-    separation : float, optional
-        Primitives within this distance are in contact.
-    norm : {"linf", "l2"}, optional
-        The norm of that distance.
-    t_max : float, optional
-        Only contacts up to this time count, in [0, 1].
-    toi_tolerance : float, optional
-        The maximum width of enclosures of times, relative to their upper ends.
-    threads : int, optional
-        The maximum number of threads; 0: one for each core that the process may use.
-    progress : bool, optional
-        Show the time of a search from the first second on; by default in terminals and notebooks.
+    separation, norm, t_max, toi_tolerance, threads, progress : optional
+        As for `solve`.
 
     Raises
     ------
@@ -313,13 +295,11 @@ class Step:
         if can_collide is not None and not callable(can_collide):
             raise TypeError("can_collide: a function of two vertices is needed")
         self._can_collide = can_collide
-        self._step = _ending_with_interrupts(
+        self._step = interruptible(
             lambda: _fast.Step(
                 *self._vertices,
                 *self._elements,
-                self._thickness[0],
-                self._thickness[1],
-                self._thickness[2],
+                *self._thickness,
                 can_collide,
                 separation,
                 norm,
@@ -360,14 +340,14 @@ class Step:
             self._separation[0] if separation is None else separation,
             self._separation[1] if norm is None else norm,
         )
-        result._step = _ending_with_interrupts(
+        result._step = interruptible(
             lambda: self._step.moved(*result._vertices, *result._separation)
         )
         return result
 
-    def _search(self, search: Callable[[Callable[..., None] | None], Value]) -> Value:
+    def _search(self, search: Callable[[Callable[..., None] | None], Any]) -> Any:
         with Progress("Step", self._progress) as bar:
-            return _ending_with_interrupts(lambda: search(bar.callback))
+            return interruptible(lambda: search(bar.callback))
 
     @property
     def edges(self) -> npt.NDArray[np.int32]:
@@ -622,10 +602,8 @@ def intersections(
         As for `Step`: groups of vertices, and those that are not examined.
     weld : bool, optional
         True: vertices at the same place, of the same group, are one, before elements are found.
-    threads : int, optional
-        The maximum number of threads; 0: one for each core that the process may use.
-    progress : bool, optional
-        Show the time of a search from the first second on; by default in terminals and notebooks.
+    threads, progress : optional
+        As for `solve`.
 
     Returns
     -------
@@ -652,7 +630,7 @@ def intersections(
     """
     arguments = _at_rest(vertices, faces, edges, points, groups, apart)
     with Progress("intersections", progress) as bar:
-        return _ending_with_interrupts(
+        return interruptible(
             lambda: _fast.intersections(*arguments, weld, threads, bar.callback)
         )
 
