@@ -7,6 +7,7 @@ import json
 import math
 import os
 import pathlib
+import runpy
 import signal
 import subprocess
 import sys
@@ -181,10 +182,11 @@ def test_a_batch_is_many_queries_and_a_failure_costs_one():
     assert missed < colliding and 2 * len(missed) < len(colliding)
 
 
-def test_the_naive_solver_is_convicted_within_ten_seconds():
-    sys.path.insert(0, str(ROOT / "examples/python"))
-    from naive_cubic import naive_cubic
-
+def test_the_example_convicts_the_naive_solver(monkeypatch, tmp_path, capsys):
+    monkeypatch.chdir(tmp_path)
+    judge_a_solver = runpy.run_path(str(ROOT / "examples/python/judge_a_solver.py"), run_name="__main__")
+    said, naive_cubic = capsys.readouterr().out, judge_a_solver["naive_cubic"]
+    assert "naive_cubic" in said and "false_negative" in said and "1 accepted, 0 rejected" in said
     report = touchstone.fuzz(naive_cubic, seconds=0, findings=2, query_limit=60.0)
     assert len(report.findings) == 2
     for finding in report.findings:
