@@ -1,10 +1,7 @@
-"""The oracle, certificates and methods: against the fast part, the checker, and the command line."""
+"""The oracle, certificates and methods: against the fast part and the checker."""
 
 from __future__ import annotations
 
-import csv
-import pathlib
-import subprocess
 from fractions import Fraction
 
 import hypothesis.extra.numpy as arrays
@@ -207,55 +204,6 @@ def test_a_missing_library_is_explained(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "touchstone._exact", None)
     with pytest.raises(ImportError, match="./run python in the sources"):
         touchstone.decide("edge_edge", np.zeros((8, 3)))
-
-
-def answers_of_the_tool(tool: str, files: list[pathlib.Path], method: str, folder: pathlib.Path):
-    """The answers that the command line gives, by file and index."""
-    out = folder / f"{method}.csv"
-    command = [tool, "solve", *map(str, files), "--method", method, "--max-checks", "1000", "--out", str(out)]
-    subprocess.run(command, check=True, capture_output=True)
-    answers: dict[str, dict[int, dict[str, str]]] = {}
-    with open(out, newline="") as file:
-        for row in csv.DictReader(file):
-            answers.setdefault(row["file"], {})[int(row["index"])] = row
-    return answers
-
-
-@pytest.fixture(scope="session")
-def datasets(tool, tmp_path_factory) -> list[pathlib.Path]:
-    folder = tmp_path_factory.mktemp("data")
-    command = [tool, "generate", "--npy", "--count", "8", "--out", folder]
-    subprocess.run(command, check=True, capture_output=True)
-    return sorted(folder.rglob("*.npy"))
-
-
-# The command line asks these only the queries within their terms.
-WITH_TERMS = ("accd_limited",)
-
-
-# They answer queries on curves, or about elements, alone.
-OTHERS = ("subdivision", "subdivision_largest_deviation", "sampling", "advancement")
-OTHERS += ("inversion_cubic", "inversion_additive")
-
-
-@pytest.mark.parametrize("method", [one.name for one in touchstone.methods() if one.name not in OTHERS])
-def test_every_method_answers_as_on_the_command_line(method, tool, datasets, tmp_path):
-    """Bit for bit."""
-    expected = answers_of_the_tool(tool, datasets, method, tmp_path)
-    words = ("no", "yes", "undecided", "error")
-    assert any(expected.values())
-    for path in datasets:
-        kind = "vertex_face" if path.parent.name == "vertex-face" else "edge_edge"
-        queries = np.load(path)
-        found = touchstone.solve(kind, queries, method=method, max_checks=1000)
-        rows, columns = expected.get(str(path), {}), found.to_dict()
-        assert len(found) == len(queries) > 0
-        assert len(rows) == len(found) or method in WITH_TERMS
-        for i, row in rows.items():
-            assert row["verdict"] == words[found.verdict[i]]
-            for name in ("toi_lower", "toi_upper", "tolerance"):
-                theirs = float(row[name]) if row[name] else np.nan
-                assert np.array_equal(theirs, columns[name][i], equal_nan=True)
 
 
 def test_the_named_functions_answer_as_their_methods(queries):
