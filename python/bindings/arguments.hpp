@@ -2,17 +2,17 @@
 
 /// \file
 /// Arguments of Python as those of C++. The functions of the package `touchstone` have already made
-/// arrays of the right type and layout; what arrives here is only checked.
+/// arrays of the right type, shape and layout, and checked words (python/touchstone/_input.py).
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 
 #include "touchstone/query.hpp"
 
@@ -31,21 +31,13 @@ using Integers = py::array_t<std::int32_t, py::array::c_style>;
   return name;
 }
 
-/// \throws std::invalid_argument for another text.
-[[nodiscard]] inline Kind kind_from(std::string_view text) {
-  for (const Kind kind : all_kinds) {
-    if (text == name_of(kind)) return kind;
-  }
-  throw std::invalid_argument(
-      "kind must be 'vertex_face', 'edge_edge', 'tetrahedron' or 'plane_triangle', not '" +
-      std::string(text) + "'");
+[[nodiscard]] inline Kind kind_from(std::string name) {
+  std::ranges::replace(name, '_', '-');
+  return kind_from_string(name);
 }
 
-/// \throws std::invalid_argument for another norm, or a distance that is negative or not finite.
+/// \throws std::invalid_argument for a distance that is negative or not finite.
 [[nodiscard]] inline Separation separation_from(double distance, const std::string& norm) {
-  if (norm != "linf" && norm != "l2") {
-    throw std::invalid_argument("norm must be 'linf' or 'l2', not '" + norm + "'");
-  }
   const Separation separation{.distance = distance, .norm = norm_from_string(norm)};
   if (is_valid(separation)) return separation;
   throw std::invalid_argument("separation must be a finite number >= 0, not " +
@@ -56,23 +48,9 @@ using Integers = py::array_t<std::int32_t, py::array::c_style>;
 /// (N, k+1, 4, 3), or (N, k+1, 4, 4) with weights, on curves.
 [[nodiscard]] inline Queries queries_of(Kind kind, const Doubles& array) {
   const std::span<const double> numbers{array.data(), std::size_t(array.size())};
-  if (array.ndim() != 4) {
-    if (array.ndim() != 3 || array.shape(1) != 8 || array.shape(2) != 3) {
-      throw std::invalid_argument("queries must have the shape (N, 8, 3)");
-    }
-    return {{.kind = kind}, numbers};
-  }
-  if (array.shape(1) == 0 || array.shape(2) != 4 || array.shape(3) < 3 || array.shape(3) > 4) {
-    throw std::invalid_argument("curves must have the shape (N, k + 1, 4, 3) or (N, k + 1, 4, 4)");
-  }
+  if (array.ndim() == 3) return {{.kind = kind}, numbers};
   const auto degree = std::size_t(array.shape(1)) - 1;
   return {{.kind = kind, .degree = degree, .is_rational = array.shape(3) == 4}, numbers};
-}
-
-/// The same, on straight lines alone.
-[[nodiscard]] inline Queries straight_queries_of(Kind kind, const Doubles& array) {
-  if (array.ndim() == 3) return queries_of(kind, array);
-  throw std::invalid_argument("queries must have the shape (N, 8, 3)");
 }
 
 /// The items of a structured array that the caller has made for results, an item each.

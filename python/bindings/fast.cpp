@@ -110,7 +110,7 @@ py::dict tight_inclusion_layout() {
 std::size_t distance(const std::string& kind_name, const Doubles& array, py::array results,
                      double t, const std::string& norm, int threads, const py::object& progress) {
   const Kind kind = kind_from(kind_name);
-  const Queries queries = straight_queries_of(kind, array);
+  const Queries queries = queries_of(kind, array);
   const auto items = items_of<fast::Distance>(results, queries.size());
   const Norm of_distance = separation_from(0.0, norm).norm;
   fast::distances(kind, {}, t, of_distance, {}, 1);  // checks the time

@@ -21,26 +21,17 @@ namespace touchstone::python {
 /// The rows of an array of integers of shape (n, k), or of shape (n,) for k = 1.
 template <class Row>
 [[nodiscard]] std::vector<Row> rows_of(const Integers& array) {
-  constexpr std::size_t width = sizeof(Row) / sizeof(std::int32_t);
-  const bool is_table = width > 1;
-  if (array.ndim() != (is_table ? 2 : 1) || (is_table && std::size_t(array.shape(1)) != width)) {
-    throw std::invalid_argument("an array of indices has the wrong shape");
-  }
   std::vector<Row> rows(std::size_t(array.shape(0)));
   if (!rows.empty()) std::memcpy(rows.data(), array.data(), rows.size() * sizeof(Row));
   return rows;
 }
 
 /// The motion between places of shape (n, 3); or on curves, of control points of shape (n, degree +
-/// 1, 3) or, with weights, (n, degree + 1, 4), which are `before`. \throws std::invalid_argument
-/// for other shapes.
+/// 1, 3) or, with weights, (n, degree + 1, 4), which are `before`.
 [[nodiscard]] inline fast::Motion motion_of(const Doubles& before, const Doubles& after) {
   if (before.ndim() == 3) {
     return {std::size_t(before.shape(1)) - 1, before.shape(2) == 4,
             std::vector<double>(before.data(), before.data() + before.size())};
-  }
-  if (before.ndim() != 2 || after.ndim() != 2) {
-    throw std::invalid_argument("vertices must have the shape (n, 3)");
   }
   using Rows =
       Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
