@@ -53,22 +53,6 @@ def test_the_oracle_agrees_and_its_times_are_exact(query, kind, separation, norm
     assert Fraction(float(fast.toi_lower)) <= lower and upper <= Fraction(float(fast.toi_upper))
 
 
-@given(small_queries, st.sampled_from(KINDS), st.sampled_from([0.0, 0.5]), st.sampled_from(["linf", "l2"]), st.integers(1, 5))
-@settings(max_examples=40)
-def test_curves_that_are_lines_in_another_time_have_the_same_contacts(query, kind, separation, norm, weight):
-    truth = touchstone.decide(kind, query, separation=separation, norm=norm)
-    lines = list(zip(query[:4], query[4:]))
-    slow = [touchstone.Curve([a, a, b]) for a, b in lines]
-    late = [touchstone.Curve([a, b], [1, weight]) for a, b in lines]
-    slow, late = touchstone.decide(kind, [slow, late], separation=separation, norm=norm)
-    assert slow.collides == late.collides == truth.collides
-    if truth.collides:  # after t² of the time, and after w t / (1 − t + w t)
-        time = float(truth.toi)
-        assert float(slow.toi) ** 2 == pytest.approx(time, abs=1e-15)
-        assert weight * float(late.toi) == pytest.approx(time * (1 - float(late.toi) + weight * float(late.toi)), abs=1e-14)
-        assert slow.toi_lower <= float(slow.toi) <= slow.toi_upper
-
-
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("numbers", [3, 4])
 @pytest.mark.parametrize("degree", [2, 3])
@@ -175,17 +159,6 @@ def test_certificates_of_meshes():
     rule = "1 group held apart from itself"
     assert touchstone.check(apart).summary == f"1 mesh: no two elements that can meet intersect; {rule}"
     assert touchstone.check(apart, claim="free", rules=rule) and not touchstone.check(apart, claim="free")
-
-
-def test_sequences_of_steps():
-    lists = "".join(f"{name} 0\n" for name in ("faces", "edges", "points", "groups", "apart", "radii", "separations"))
-    step = f"step\nvertices 1\n0 0 1 0 0 0\n{lists}separation 0 linf\nclaim no_contact 1\nsweep x\n"
-    step = (step + "vertex_face\nedge_edge\nvertex_edge\nvertex_vertex\nend\n").replace("points 0\n", "points 1\n0\n")
-    for second, is_next in ((step.replace("0 0 1 0 0 0", "0 0 0 0 0 1"), True), (step, False)):
-        stream = f"touchstone-steps 2\n{step}{second}steps 2\n"
-        report = touchstone.check(stream)
-        assert report and ("each from where the last one ended" in report.summary) == is_next
-        assert bool(touchstone.check(stream, claim="sequence")) == is_next
 
 
 def test_errors(queries):
