@@ -1,7 +1,5 @@
 #include "verify/io/dataset_error.hpp"
 
-#include <utility>
-
 namespace touchstone::verify::io {
 namespace {
 
@@ -21,11 +19,9 @@ std::string message(const std::filesystem::path& path, FilePosition position,
 
 }  // namespace
 
-DatasetError::DatasetError(std::filesystem::path path, FilePosition position,
+DatasetError::DatasetError(const std::filesystem::path& path, FilePosition position,
                            const std::string& reason)
     : std::runtime_error(message(path, position, bounded(reason, longest_reason))),
-      path_(std::move(path)),
-      position_(position),
       reason_(bounded(reason, longest_reason)) {}
 
 std::string_view beginning(std::string_view text, std::size_t longest) {

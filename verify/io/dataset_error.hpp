@@ -18,11 +18,9 @@ struct FilePosition {
   std::uint64_t line = 0;
   /// Counted from 1: the field in a CSV file, the byte of the line in a JSON file.
   std::uint64_t column = 0;
-
-  friend bool operator==(const FilePosition&, const FilePosition&) = default;
 };
 
-/// Bad data, or a file that cannot be read or written. what() is "path:line:column: reason",
+/// Bad data, or a file that cannot be read or written: what() is "path:line:column: reason",
 /// without the parts that are 0. Path and reason may be external texts, so what() has a bounded
 /// length: "..." marks a truncation.
 class DatasetError : public std::runtime_error {
@@ -32,19 +30,12 @@ class DatasetError : public std::runtime_error {
   /// Maximum length of a path in what(), in bytes: that of the system's longest path.
   static constexpr std::size_t longest_path = 4096;
 
-  DatasetError(std::filesystem::path path, FilePosition position, const std::string& reason);
+  DatasetError(const std::filesystem::path& path, FilePosition position, const std::string& reason);
 
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Line counted from 1, 0 if the error belongs to no line.
-  [[nodiscard]] std::uint64_t line() const { return position_.line; }
-  /// Column as FilePosition counts it, 0 if the error belongs to no column.
-  [[nodiscard]] std::uint64_t column() const { return position_.column; }
   /// Not longer than longest_reason followed by "...".
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
  private:
-  std::filesystem::path path_;
-  FilePosition position_;
   std::string reason_;
 };
 

@@ -103,11 +103,6 @@ std::string_view LineReader::peek(std::size_t bytes) {
   return {buffer_.get() + begin_, end_ - begin_};
 }
 
-void LineReader::skip(std::size_t bytes, std::uint64_t lines) {
-  begin_ += bytes;
-  line_number_ += lines;
-}
-
 void LineReader::begin() {
   if (std::exchange(has_begun_, true)) return;
   static constexpr std::size_t longest_mark = 3;

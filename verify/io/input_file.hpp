@@ -82,11 +82,8 @@ class LineReader {
   /// \pre bytes ≤ longest_line
   [[nodiscard]] std::string_view peek(std::size_t bytes);
 
-  /// Skips bytes that peek() has returned, which are so many whole lines.
-  void skip(std::size_t bytes, std::uint64_t lines);
-
-  /// The number of the last line that was read or skipped; 0 at the beginning.
-  [[nodiscard]] std::uint64_t line_number() const { return line_number_; }
+  /// Skips bytes that peek() has returned; lines are not counted behind them.
+  void skip(std::size_t bytes) { begin_ += bytes; }
 
   /// The number of bytes in front of what next() and peek() return.
   [[nodiscard]] std::uint64_t offset() const { return taken_ - (end_ - begin_); }

@@ -88,7 +88,7 @@ class Input {
     const std::string_view there = lines_.peek(bytes.size());
     if (there.size() < bytes.size()) fail_at_end();
     std::ranges::copy(there.substr(0, bytes.size()), bytes.begin());
-    lines_.skip(bytes.size(), 0);
+    lines_.skip(bytes.size());
   }
 
   /// True if there are no more bytes.

@@ -88,7 +88,6 @@ TEST(DatasetError, HasABoundedLength) {
                            std::string(100000, 'r'));
   EXPECT_EQ(error.what(), std::string(4096, 'p') + "...:12:3: " + std::string(1000, 'r') + "...");
   EXPECT_EQ(error.reason(), std::string(1000, 'r') + "...");
-  EXPECT_EQ(error.path().string().size(), 100000U) << "only what is printed is cut";
   EXPECT_EQ(DatasetError("p", {}, std::string(1000, 'r')).reason(), std::string(1000, 'r'));
   EXPECT_EQ(DatasetError("p", {}, std::string(999, 'r') + "\xF0\x9F\x98\x80").reason(),
             std::string(999, 'r') + "...")
