@@ -9,7 +9,6 @@
 #include "exact/contact/contact_conditions.hpp"
 #include "exact/contact/corner_motion.hpp"
 #include "touchstone/algebraic_number.hpp"
-#include "touchstone/element.hpp"
 
 namespace touchstone::exact {
 namespace {
@@ -187,7 +186,7 @@ template <class Order>
 void prove_collision(const MotionOf<Order>& motion, const AlgebraicNumber& first,
                      const ProveOptions& options, Certificate& certificate) {
   AlgebraicNumber toi = recognised(first);
-  const bool is_tetrahedron = is_element(certificate.kind);
+  const bool is_tetrahedron = certificate.kind.is_cell();
   const auto conditions = conditions_at(motion, is_tetrahedron, toi);
   if (!conditions)
     throw std::logic_error("touchstone: no contact at the decision's time of impact");
@@ -217,23 +216,19 @@ Certificate prove_motion(Certificate certificate, const MotionOf<Order>& motion,
   if (first) {
     prove_collision(motion, *first, options, certificate);
   } else {
-    certificate.subintervals = free_until(motion, is_element(certificate.kind), Rational(1));
+    certificate.subintervals = free_until(motion, certificate.kind.is_cell(), Rational(1));
   }
   require_limits(certificate);
   return certificate;
 }
 
-/// Proves the first contact or inversion, or that there is none.
+/// Proves the first contact, or that there is none.
 /// \tparam AnyQuery Query or CurvedQuery.
 template <class AnyQuery>
-Certificate prove_any(Kind kind, const AnyQuery& query, const Decision& decision,
+Certificate prove_any(ContactKind given, const AnyQuery& asked, const Decision& decision,
                       const ProveOptions& options) {
-  if (is_element(kind)) {
-    if (!is_zero(decision.separation)) throw std::invalid_argument("an element has no separation");
-    const AnyQuery tetrahedron = to_tetrahedron(kind, query);
-    return prove_motion({.kind = Kind::tetrahedron, .query = tetrahedron},
-                        scale(Kind::vertex_face, tetrahedron), decision.toi, options);
-  }
+  const ContactKind kind = decided_as(given);
+  const AnyQuery query = decided_query(given, asked);
   auto motion = scale_uniformly(kind, query, decision.separation);
   // Both norms mean the same at distance 0, and l2 has fewer features.
   if (sgn(motion.distance) == 0) motion.norm = Norm::l2;
@@ -241,14 +236,22 @@ Certificate prove_any(Kind kind, const AnyQuery& query, const Decision& decision
                       decision.toi, options);
 }
 
+/// \tparam Cell Query or CurvedQuery.
+template <class Cell>
+Certificate prove_tetrahedron(const Cell& tetrahedron, const std::optional<AlgebraicNumber>& first,
+                              const ProveOptions& options) {
+  return prove_motion({.kind = CellKind::tetrahedron, .query = tetrahedron},
+                      scale(ContactKind::vertex_face, tetrahedron), first, options);
+}
+
 }  // namespace
 
-Certificate prove(Kind kind, const Query& query, const Decision& decision,
+Certificate prove(ContactKind kind, const Query& query, const Decision& decision,
                   const ProveOptions& options) {
   return prove_any(kind, query, decision, options);
 }
 
-Certificate prove(Kind kind, const CurvedQuery& query, const Decision& decision,
+Certificate prove(ContactKind kind, const CurvedQuery& query, const Decision& decision,
                   const ProveOptions& options) {
   return prove_any(kind, query, decision, options);
 }
@@ -257,6 +260,25 @@ Certificate prove(const Queries& queries, std::size_t i, const Decision& decisio
                   const ProveOptions& options) {
   if (queries.is_straight()) return prove(queries.kind, queries.straight()[i], decision, options);
   return prove(queries.kind, to_curved(queries, i), decision, options);
+}
+
+Certificate prove_inversion(CellKind kind, const Query& cell,
+                            const std::optional<AlgebraicNumber>& first,
+                            const ProveOptions& options) {
+  return prove_tetrahedron(to_tetrahedron(kind, cell), first, options);
+}
+
+Certificate prove_inversion(CellKind kind, const CurvedQuery& cell,
+                            const std::optional<AlgebraicNumber>& first,
+                            const ProveOptions& options) {
+  return prove_tetrahedron(to_tetrahedron(kind, cell), first, options);
+}
+
+Certificate prove_inversion(const Cells& cells, std::size_t i,
+                            const std::optional<AlgebraicNumber>& first,
+                            const ProveOptions& options) {
+  if (cells.is_straight()) return prove_inversion(cells.kind, cells.straight()[i], first, options);
+  return prove_inversion(cells.kind, to_curved(cells, i), first, options);
 }
 
 std::vector<Certificate> prove(const Queries& queries, std::span<const Decision> decisions,

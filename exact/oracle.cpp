@@ -11,16 +11,16 @@
 #include "exact/contact/contact_oracle.hpp"
 #include "exact/contact/corner_motion.hpp"
 #include "exact/distance/separating_axes.hpp"
-#include "touchstone/element.hpp"
 
 namespace touchstone::exact {
 namespace {
 
 /// The first time at which the volume V of a tetrahedron is not positive. (The corners of a vertex
 /// a and a face b, c, d are a − b, a − c, a − d, whose determinant is −6 V.)
-template <class Order>
-std::optional<AlgebraicNumber> time_of_inversion(const MotionOf<Order>& tetrahedron) {
-  const auto volume = -determinant(tetrahedron);
+/// \tparam Cell Query or CurvedQuery
+template <class Cell>
+std::optional<AlgebraicNumber> first_inversion_of(const Cell& tetrahedron) {
+  const auto volume = -determinant(scale(ContactKind::vertex_face, tetrahedron));
   if (sgn(volume.c.front()) <= 0) return AlgebraicNumber(0);
   if (std::ranges::all_of(volume.c, [](const Integer& c) { return sgn(c) > 0; })) return {};
   std::vector<AlgebraicNumber> roots = roots_in_unit_interval(to_polynomial(volume));
@@ -44,40 +44,41 @@ std::optional<AlgebraicNumber> time_within_distance(const MotionOf<Order>& motio
 
 /// \tparam AnyQuery Query or CurvedQuery
 template <class AnyQuery>
-Decision decide_any(Kind kind, const AnyQuery& query, const Separation& separation) {
+Decision decide_any(ContactKind kind, const AnyQuery& query, const Separation& separation) {
   Decision decision;
-  if (is_element(kind)) {
-    if (!is_zero(separation)) throw std::invalid_argument("an element has no separation");
-    decision.toi = time_of_inversion(scale(Kind::vertex_face, to_tetrahedron(kind, query)));
+  const auto motion = scale(decided_as(kind), decided_query(kind, query), separation);
+  if (is_zero(separation)) {
+    decision = decide_contact(motion);
   } else {
-    const auto motion = scale(kind, query, separation);
-    if (is_zero(separation)) {
-      decision = decide_contact(motion);
-    } else {
-      decision.toi = time_within_distance(motion);
-    }
+    decision.toi = time_within_distance(motion);
   }
   decision.separation = separation;
   return decision;
 }
 
+/// The result of a decision about query i, which an error names.
+template <class Decide>
+auto at_place(std::size_t i, const Decide& decide) try {
+  return decide();
+} catch (const std::domain_error& error) {
+  throw std::domain_error("query " + std::to_string(i) + ": " + error.what());
+}
+
 }  // namespace
 
-Decision decide(Kind kind, const Query& query, const Separation& separation) {
+Decision decide(ContactKind kind, const Query& query, const Separation& separation) {
   return decide_any(kind, query, separation);
 }
 
-Decision decide(Kind kind, const CurvedQuery& query, const Separation& separation) {
+Decision decide(ContactKind kind, const CurvedQuery& query, const Separation& separation) {
   return decide_any(kind, query, separation);
 }
 
 Decision decide(const Queries& queries, std::size_t i, const Separation& separation) {
-  try {
+  return at_place(i, [&] {
     if (queries.is_straight()) return decide(queries.kind, queries.straight()[i], separation);
     return decide(queries.kind, to_curved(queries, i), separation);
-  } catch (const std::domain_error& error) {
-    throw std::domain_error("query " + std::to_string(i) + ": " + error.what());
-  }
+  });
 }
 
 std::vector<Decision> decide(const Queries& queries, const Separation& separation) {
@@ -87,6 +88,21 @@ std::vector<Decision> decide(const Queries& queries, const Separation& separatio
     decisions.push_back(decide(queries, i, separation));
   }
   return decisions;
+}
+
+std::optional<AlgebraicNumber> first_inversion(CellKind kind, const Query& cell) {
+  return first_inversion_of(to_tetrahedron(kind, cell));
+}
+
+std::optional<AlgebraicNumber> first_inversion(CellKind kind, const CurvedQuery& cell) {
+  return first_inversion_of(to_tetrahedron(kind, cell));
+}
+
+std::optional<AlgebraicNumber> first_inversion(const Cells& cells, std::size_t i) {
+  return at_place(i, [&] {
+    if (cells.is_straight()) return first_inversion(cells.kind, cells.straight()[i]);
+    return first_inversion(cells.kind, to_curved(cells, i));
+  });
 }
 
 ContactParameters contact_parameters(const Decision& decision, const Rational& width) {

@@ -17,17 +17,13 @@ bool is_below(std::int32_t index, std::size_t size) {
   return index >= 0 && static_cast<std::size_t>(index) < size;
 }
 
-/// True if all indices of all elements are below the size. No branch for each element, because it
-/// runs for every batch.
-template <std::size_t count>
-bool are_below(std::span<const std::array<std::int32_t, count>> elements, std::size_t size) {
+/// True if all indices are below the size. No branch for each, because it runs for every batch.
+bool are_below(std::span<const std::int32_t> indices, std::size_t size) {
   std::uint32_t greatest = 0;  // a negative index becomes one of at least 2^31
-  for (const auto& element : elements) {
-    for (const std::int32_t index : element) {
-      greatest = std::max(greatest, static_cast<std::uint32_t>(index));
-    }
+  for (const std::int32_t index : indices) {
+    greatest = std::max(greatest, static_cast<std::uint32_t>(index));
   }
-  return elements.empty() || greatest < size;
+  return indices.empty() || greatest < size;
 }
 
 void require_countable(std::size_t count, std::string_view name) {
@@ -35,28 +31,33 @@ void require_countable(std::size_t count, std::string_view name) {
   throw std::length_error(std::string(name) + ": more than 2^31-1 of them");
 }
 
-/// Elements of a mesh with their name in error messages.
+/// The vertices of elements of a mesh, so many of each, with their name in error messages.
+void require_elements_in_range(std::size_t vertices, std::span<const std::int32_t> corners,
+                               std::size_t of_each, std::string_view name) {
+  require_countable(corners.size() / of_each, name);
+  if (are_below(corners, vertices)) return;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (is_below(corners[i], vertices)) continue;
+    throw std::out_of_range(std::string(name) + " " + std::to_string(i / of_each) + ": vertex " +
+                            std::to_string(corners[i]) + ", but there are " +
+                            std::to_string(vertices));
+  }
+}
+
 template <std::size_t count>
 void require_elements_in_range(std::size_t vertices,
                                std::span<const std::array<std::int32_t, count>> elements,
                                std::string_view name) {
-  require_countable(elements.size(), name);
-  if (are_below(elements, vertices)) return;
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    for (const std::int32_t vertex : elements[i]) {
-      if (is_below(vertex, vertices)) continue;
-      throw std::out_of_range(std::string(name) + " " + std::to_string(i) + ": vertex " +
-                              std::to_string(vertex) + ", but there are " +
-                              std::to_string(vertices));
-    }
-  }
+  if (elements.empty()) return;
+  require_elements_in_range(vertices, {elements.front().data(), count * elements.size()}, count,
+                            name);
 }
 
 /// The vertices of a pair, in the order of a query's points.
 std::array<std::int32_t, moving_points> vertices_of(const Candidates& candidates,
                                                     const IndexPair& pair) {
   const auto [first, second] = pair;
-  if (candidates.kind == Kind::vertex_face) {
+  if (candidates.kind == ContactKind::vertex_face) {
     const Face& face = at(candidates.faces, second);
     return {first, face[0], face[1], face[2]};
   }
@@ -114,17 +115,14 @@ void require_in_range(const Motion& vertices, std::span<const Face> faces) {
   require_elements_in_range(vertices.size(), faces, "face");
 }
 
-void require_in_range(const Motion& vertices,
-                      std::span<const std::array<std::int32_t, 4>> tetrahedra) {
-  require_elements_in_range(vertices.size(), tetrahedra, "tetrahedron");
+void require_in_range(const Motion& vertices, std::span<const std::int32_t> points) {
+  require_elements_in_range(vertices.size(), points, 1, "point");
 }
 
-void require_in_range(const Motion& vertices, std::span<const std::int32_t> points) {
-  require_countable(points.size(), "points");
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (is_below(points[i], vertices.size())) continue;
-    throw std::out_of_range("point " + std::to_string(i) + ": vertex " + std::to_string(points[i]) +
-                            ", but there are " + std::to_string(vertices.size()));
+void require_cells_in_range(const Motion& vertices, const Mesh& mesh) {
+  for (const CellKind kind : cell_kinds) {
+    require_elements_in_range(vertices.size(), mesh.corners_of(kind), record_of(kind).point_count,
+                              to_string(kind));
   }
 }
 

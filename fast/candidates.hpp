@@ -16,7 +16,7 @@ namespace touchstone::fast {
 
 /// Pairs of one kind with the arrays that their indices refer to. Owns nothing.
 struct Candidates {
-  Kind kind = Kind::vertex_face;
+  ContactKind kind = ContactKind::vertex_face;
   std::span<const IndexPair> pairs;
   std::span<const Edge> edges;  ///< needed for edge_edge
   std::span<const Face> faces;  ///< needed for vertex_face
@@ -36,12 +36,11 @@ void require_finite(const Motion& vertices);
 /// \throws std::invalid_argument if the vertices move on curves. \param what needs straight lines
 void require_straight(const Motion& vertices, std::string_view what);
 
-/// \throws std::out_of_range naming the first edge, face, tetrahedron or codimensional point with
-/// an index that is no vertex's; std::length_error if there are more than 2^31−1.
+/// \throws std::out_of_range naming the first edge, face, codimensional point or cell with an index
+/// that is no vertex's; std::length_error if there are more than 2^31−1.
 void require_in_range(const Motion& vertices, std::span<const Edge> edges);
 void require_in_range(const Motion& vertices, std::span<const Face> faces);
-void require_in_range(const Motion& vertices,
-                      std::span<const std::array<std::int32_t, 4>> tetrahedra);
 void require_in_range(const Motion& vertices, std::span<const std::int32_t> points);
+void require_cells_in_range(const Motion& vertices, const Mesh& mesh);
 
 }  // namespace touchstone::fast

@@ -16,7 +16,7 @@ namespace {
 using exact_stage::nearest_parameters;
 
 /// True if the primitives have a common point at the time.
-bool touch_at(Kind kind, const Query& query, double t) {
+bool touch_at(ContactKind kind, const Query& query, double t) {
   return distance(kind, query, t).upper == 0.0;
 }
 
@@ -36,7 +36,7 @@ ActiveContact contact_in(const Step& step, const StepCollision& collision) {
     throw std::invalid_argument("contact_of: the times of a collision must be in [0,1], in order");
   }
   const Separation separation = step.separation_of(collision.kind, collision.pair);
-  const Kind kind = Step::kind_of(collision.kind);
+  const ContactKind kind = decided_as(collision.kind);
   const Query query = step.query_of(collision.kind, collision.pair);
   TimeEnclosure time{collision.toi_lower, collision.toi_upper};
   bool is_touching = is_zero(separation);
@@ -86,11 +86,11 @@ std::vector<ActiveContact> active_set(const Step& step, const Separation& separa
   return result;
 }
 
-ActiveContact contact_at(const Step& step, PairKind kind, const IndexPair& pair, double t) {
+ActiveContact contact_at(const Step& step, ContactKind kind, const IndexPair& pair, double t) {
   if (!(t >= 0.0 && t <= 1.0))
     throw std::invalid_argument("contact_at: the time must be in [0, 1]");
   const StrictFloatingPoint strict;
-  const Kind query_kind = Step::kind_of(kind);
+  const ContactKind query_kind = decided_as(kind);
   const Query query = step.query_of(kind, pair);
   const StepCollision collision{.kind = kind, .pair = pair, .toi_lower = t, .toi_upper = t};
   return contact_between(

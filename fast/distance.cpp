@@ -29,13 +29,13 @@ void require_time(double t) {
 }
 
 /// \pre strict floating point
-Distance distance_at(Kind kind, const Query& query, double t, Norm norm) {
+Distance distance_at(ContactKind kind, const Query& query, double t, Norm norm) {
   if (const auto result = filtered_distance(kind, query, t, norm)) return *result;
   return exact_distance(kind, query, t, norm);
 }
 
 /// The same for a query that no kernel has seen.
-Distance distance_of_one(Kind kind, const Query& query, double t, Norm norm) {
+Distance distance_of_one(ContactKind kind, const Query& query, double t, Norm norm) {
   if (norm == Norm::l2) {
     Distance result;
     distance_kernel_for_one().filter(kind, &query, 1, t, &result);
@@ -46,7 +46,7 @@ Distance distance_of_one(Kind kind, const Query& query, double t, Norm norm) {
 
 /// Answers query i in results[i].
 /// \param first the number of query 0 in messages
-void answer(Kind kind, std::span<const Query> queries, double t, Norm norm,
+void answer(ContactKind kind, std::span<const Query> queries, double t, Norm norm,
             std::span<Distance> results, std::size_t first) {
   const StrictFloatingPoint strict;
   for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -187,7 +187,7 @@ class LeastDistanceSearch {
     rest.rounded = fixed_point_vertices(near.vertices(), rest.end, within.distance);
     for_each_possible_collision(
         scene, rest, within, 0.0,
-        [&](PairKind kind, const IndexPair& pair) { consider(near, kind, pair); });
+        [&](ContactKind kind, const IndexPair& pair) { consider(near, kind, pair); });
   }
 
   /// Examines the pairs of one group of primitives in 256.
@@ -207,8 +207,8 @@ class LeastDistanceSearch {
     });
   }
 
-  void consider(const Step& near, PairKind kind, const IndexPair& pair) {
-    const Kind query_kind = Step::kind_of(kind);
+  void consider(const Step& near, ContactKind kind, const IndexPair& pair) {
+    const ContactKind query_kind = decided_as(kind);
     const double known = known_.load(std::memory_order_relaxed);
     const double thickness = scene_of(step_).thickness_of(kind, pair);
     const double within = std::max((known * scale_ + slack_) * margin_ + thickness * scale_, 0.0);
@@ -250,33 +250,35 @@ class LeastDistanceSearch {
 
 }  // namespace
 
-Distance distance(Kind kind, const Query& query, double t, Norm norm) {
-  require_contact(kind);
+Distance distance(ContactKind kind, const Query& query, double t, Norm norm) {
+  if (decided_as(kind) != kind) {
+    return distance(decided_as(kind), decided_query(kind, query), t, norm);
+  }
   require_time(t);
   if (!is_finite(query)) throw std::domain_error("distance: a coordinate is not finite");
   const StrictFloatingPoint strict;
   return distance_of_one(kind, query, t, norm);
 }
 
-void distances(Kind kind, std::span<const Query> queries, double t, Norm norm,
+void distances(ContactKind kind, std::span<const Query> queries, double t, Norm norm,
                std::span<Distance> results, int max_threads) {
-  require_contact(kind);
   require_time(t);
   if (queries.size() != results.size()) {
     throw std::invalid_argument("distances: there must be as many results as queries");
   }
+  std::vector<double> memory;
+  const Queries decided = decided_queries({kind, queries}, memory);
   if (max_threads < 0) {
     throw std::invalid_argument("distances: max_threads must not be negative");
   }
   constexpr std::size_t queries_of_task = 256;
   with_threads(max_threads, [&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), queries_of_task),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        const auto part = [&](auto all) {
-                          return all.subspan(range.begin(), range.size());
-                        };
-                        answer(kind, part(queries), t, norm, part(results), range.begin());
-                      });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, queries.size(), queries_of_task),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          const auto part = [&](auto all) { return all.subspan(range.begin(), range.size()); };
+          answer(decided.kind, part(decided.straight()), t, norm, part(results), range.begin());
+        });
   });
 }
 

@@ -8,8 +8,8 @@
 namespace touchstone::fast {
 namespace {
 
-const filters::ErrorBound<double, 1>& derived_bound(Kind kind, bool separated) {
-  if (kind == Kind::edge_edge) {
+const filters::ErrorBound<double, 1>& derived_bound(ContactKind kind, bool separated) {
+  if (kind == ContactKind::edge_edge) {
     return separated ? filters::edge_edge_separated_double : filters::edge_edge_double;
   }
   return separated ? filters::vertex_face_separated_double : filters::vertex_face_double;
@@ -17,8 +17,8 @@ const filters::ErrorBound<double, 1>& derived_bound(Kind kind, bool separated) {
 
 }  // namespace
 
-std::array<double, 3> error_filter(Kind kind, const std::array<double, 3>& x_max, double distance) {
-  require_contact(kind);
+std::array<double, 3> error_filter(ContactKind kind, const std::array<double, 3>& x_max,
+                                   double distance) {
   const filters::ErrorBound<double, 1>& bound = derived_bound(kind, distance > 0.0);
   std::array<double, 3> result{};
   for (std::size_t axis = 0; axis < 3; ++axis) {

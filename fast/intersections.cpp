@@ -122,12 +122,12 @@ class Elements {
   [[nodiscard]] std::span<const Primitive> vertices() const { return vertices_; }
   [[nodiscard]] std::span<const ElementRow> rows() const { return rows_; }
   /// The kind of an element, and its number in the interface.
-  [[nodiscard]] std::pair<ElementKind, std::int32_t> reported(std::int32_t number) const {
+  [[nodiscard]] std::pair<PrimitiveKind, std::int32_t> reported(std::int32_t number) const {
     const auto i = static_cast<std::size_t>(number);
-    if (i < faces_) return {ElementKind::face, number};
+    if (i < faces_) return {PrimitiveKind::face, number};
     const std::size_t edge = i - faces_;
-    if (edge < edges_.size()) return {ElementKind::edge, edges_[edge]};
-    return {ElementKind::point, points_[edge - edges_.size()]};
+    if (edge < edges_.size()) return {PrimitiveKind::edge, edges_[edge]};
+    return {PrimitiveKind::point, points_[edge - edges_.size()]};
   }
 
  private:
@@ -408,7 +408,7 @@ std::string_view name_in(const std::array<std::string_view, count>& names, Item 
 
 // ---- Interface ----------------------------------------------------------------------------------
 
-std::string_view to_string(ElementKind kind) {
+std::string_view to_string(PrimitiveKind kind) {
   return name_in(std::array<std::string_view, 3>{"face", "edge", "point"}, kind);
 }
 
@@ -458,8 +458,7 @@ MeshDefects mesh_defects(const Motion& vertices, const Mesh& mesh) {
   const auto add = [&named](const auto& element) {
     named.insert(named.end(), element.begin(), element.end());
   };
-  std::ranges::for_each(mesh.tetrahedra, add);
-  std::ranges::for_each(mesh.plane_triangles, add);
+  for (const CellKind kind : cell_kinds) add(mesh.corners_of(kind));
   std::ranges::sort(named);
   named.erase(std::unique(named.begin(), named.end()), named.end());
   for (std::int32_t i = 0, next = 0; std::cmp_less(i, vertices.size()); ++i) {

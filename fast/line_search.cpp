@@ -37,7 +37,7 @@ std::optional<double> kept_distance(double p, const Distance& d, double thicknes
   return is_below ? std::optional(s) : std::nullopt;
 }
 
-StepCollision at_start(PairKind kind, const IndexPair& pair) {
+StepCollision at_start(ContactKind kind, const IndexPair& pair) {
   return {.kind = kind, .pair = pair, .toi_lower = 0.0, .toi_upper = 0.0};
 }
 
@@ -120,8 +120,8 @@ Displacement displacement_of(const Motion& vertices) {
 }
 
 /// True if the swept boxes of a query's primitives are within the thickness.
-bool are_near(Kind kind, const Query& query, double thickness) {
-  const std::size_t first = kind == Kind::edge_edge ? 2 : 1;
+bool are_near(ContactKind kind, const Query& query, double thickness) {
+  const std::size_t first = kind == ContactKind::edge_edge ? 2 : 1;
   std::array<SweptBox, 2> boxes;
   for (std::size_t point = 0; point < moving_points; ++point) {
     SweptBox& box = boxes[point < first ? 0 : 1];
@@ -170,7 +170,7 @@ class SearchOfPairs {
     sort_by_pair(result_.pairs);
     for (const StepCollision& one : result_.pairs) {
       const Query query = step_.query_of(one.kind, one.pair);
-      const Distance apart = less(distance(Step::kind_of(one.kind), query, 0.0, norm_),
+      const Distance apart = less(distance(decided_as(one.kind), query, 0.0, norm_),
                                   scene_.thickness_of(one.kind, one.pair));
       if (apart.lower < result_.distance.lower) result_.distance = apart;
     }
@@ -194,7 +194,7 @@ class SearchOfPairs {
       with_threads(scene_.certified().max_threads, [&] {
         for_each_possible_collision(
             scene_of(near), until,
-            [this](PairKind kind, const IndexPair& pair) { consider(kind, pair); });
+            [this](ContactKind kind, const IndexPair& pair) { consider(kind, pair); });
       });
     } else {
       step_.with_separation(contact_).candidates([this](const StepCandidates& some) {
@@ -216,7 +216,7 @@ class SearchOfPairs {
     upper_ = impact.toi_upper;
     for (const StepCollision& one :
          std::span(impact.pairs).first(std::min(impact.pairs.size(), enough))) {
-      const Kind kind = Step::kind_of(one.kind);
+      const ContactKind kind = decided_as(one.kind);
       const Query query = step_.query_of(one.kind, one.pair);
       const std::optional<double> kept = kept_distance(p_, distance(kind, query, 0.0, norm_),
                                                        scene_.thickness_of(one.kind, one.pair));
@@ -224,15 +224,16 @@ class SearchOfPairs {
     }
   }
 
-  [[nodiscard]] CertifiedResult solve_within(Kind kind, const Query& query, double kept) const {
+  [[nodiscard]] CertifiedResult solve_within(ContactKind kind, const Query& query,
+                                             double kept) const {
     CertifiedOptions options = scene_.certified();
     options.separation = {.distance = kept, .norm = norm_};
     return solve(kind, query, options);
   }
 
-  void consider(PairKind kind, const IndexPair& pair) {
+  void consider(ContactKind kind, const IndexPair& pair) {
     const Query query = step_.query_of(kind, pair);
-    const Kind query_kind = Step::kind_of(kind);
+    const ContactKind query_kind = decided_as(kind);
     const double thickness = scene_.thickness_of(kind, pair);
     // (s is at most p d (1 + 5u), or with a thickness wrong by at most 8u d.)
     if (keeps_distance(query_kind, query, time(),
@@ -270,7 +271,7 @@ class SearchOfPairs {
     std::erase_if(result_.pairs, [upper = upper_.load()](const StepCollision& one) {
       return one.toi_lower > upper;
     });
-    if (result_.pairs.empty()) return;  // an element is earlier
+    if (result_.pairs.empty()) return;  // a cell is earlier
     result_.step_size = std::ranges::min(result_.pairs, {}, &StepCollision::toi_lower).toi_lower;
     result_.status = status_of(result_.step_size);
   }
@@ -287,9 +288,9 @@ class SearchOfPairs {
   LineSearchLimit result_;
 };
 
-// ---- Elements -----------------------------------------------------------------------------------
+// ---- Cells --------------------------------------------------------------------------------------
 
-/// Lowers the limit that pairs set to that of the elements, if it is earlier.
+/// Lowers the limit that pairs set to that of the cells, if it is earlier.
 void limit_by_volumes(const Step& step, double kept_volume, LineSearchLimit& result) {
   const Scene& scene = scene_of(step);
   const CertifiedOptions& options = scene.certified();

@@ -14,8 +14,8 @@
 #include <string_view>
 #include <vector>
 
+#include "touchstone/any_kind.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/query.hpp"
 #include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::fast {
@@ -48,29 +48,45 @@ enum class Times : std::uint8_t {
   none,       ///< the verdict alone counts
 };
 
+/// By CellKind: true of all.
+inline constexpr auto all_cells = [] {
+  std::array<bool, cell_records.size()> result{};
+  result.fill(true);
+  return result;
+}();
+
 /// The terms of a promise: the queries and the times that it covers. Other queries are not asked,
 /// and their answers are no faults.
 struct Terms {
-  /// By Kind: true if it answers these queries.
-  std::array<bool, all_kinds.size()> kinds{true, true, false, false};
+  /// By ContactKind, of the first two, and by CellKind: true if it answers these queries.
+  std::array<bool, contact_kinds.size()> contacts{true, true};
+  std::array<bool, cell_records.size()> cells{};
   bool straight = true;  ///< It answers queries on straight lines.
-  /// The degrees of the other curves that it answers, if not elements; none unless least ≤ most.
+  /// The degrees of the other curves that it answers, of contacts; none unless least ≤ most.
   std::size_t least_degree = 1;
   std::size_t most_degree = 0;
   bool rational = false;  ///< It answers rational ones, too.
   /// The least distance at t=0 beyond the minimum separation, exclusive; nothing: any distance.
-  /// Elements must have a positive volume at t=0, unless there is nothing here.
+  /// Cells must have a positive volume at t=0, unless there is nothing here.
   std::optional<double> starts_apart = std::nullopt;
   /// True if it takes coordinates in single precision: queries are rounded first.
   bool float_coordinates = false;
   Times times = Times::bounds;
   double time_error = 1e-6;  ///< of estimates, in units of the step; not negative
 
-  [[nodiscard]] bool answers(Kind kind) const { return kinds[static_cast<std::size_t>(kind)]; }
-  [[nodiscard]] bool answers(const QueryShape& shape) const {
+  /// Lets it answer the queries of a kind. \pre the kind is one of all_kinds
+  void add(AnyKind kind) {
+    (kind.is_cell() ? cells[static_cast<std::size_t>(kind.cell())] : contacts[kind.number()]) =
+        true;
+  }
+  [[nodiscard]] bool answers(AnyKind kind) const {
+    if (kind.is_cell()) return cells[static_cast<std::size_t>(kind.cell())];
+    return kind.number() < contacts.size() && contacts[kind.number()];
+  }
+  [[nodiscard]] bool answers(const AnyShape& shape) const {
     if (!answers(shape.kind)) return false;
     if (shape.is_straight()) return straight;
-    if (is_element(shape.kind)) return false;
+    if (shape.kind.is_cell()) return false;
     return least_degree <= shape.degree && shape.degree <= most_degree &&
            (rational || !shape.is_rational);
   }
@@ -89,7 +105,7 @@ struct MethodOptions {
 };
 
 /// A function as error_filter().
-using ErrorFilter = std::array<double, 3> (*)(Kind kind, const std::array<double, 3>& x_max,
+using ErrorFilter = std::array<double, 3> (*)(ContactKind kind, const std::array<double, 3>& x_max,
                                               double distance);
 
 /// The description of a method, for the registry, reports and help.
@@ -140,7 +156,7 @@ class Method {
   /// \pre as many answers as queries; info().terms.answers(queries).
   /// \throws std::invalid_argument for options that the method refuses; std::runtime_error if the
   /// arithmetic violates its assumptions; std::bad_alloc.
-  virtual void solve(const Queries& queries, std::span<Answer> answers,
+  virtual void solve(const AnyQueries& queries, std::span<Answer> answers,
                      const MethodOptions& options) const = 0;
 };
 

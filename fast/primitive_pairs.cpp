@@ -21,7 +21,7 @@ CertifiedResult solve_vertex_face(const Point& p_t0, const Point& t0_t0, const P
                                   const Point& t1_t1, const Point& t2_t1,
                                   const CertifiedOptions& options) {
   const Points points{&p_t0, &t0_t0, &t1_t0, &t2_t0, &p_t1, &t0_t1, &t1_t1, &t2_t1};
-  return solve(Kind::vertex_face, query_of(points), options);
+  return solve(ContactKind::vertex_face, query_of(points), options);
 }
 
 CertifiedResult solve_edge_edge(const Point& ea0_t0, const Point& ea1_t0, const Point& eb0_t0,
@@ -29,7 +29,7 @@ CertifiedResult solve_edge_edge(const Point& ea0_t0, const Point& ea1_t0, const 
                                 const Point& eb0_t1, const Point& eb1_t1,
                                 const CertifiedOptions& options) {
   const Points points{&ea0_t0, &ea1_t0, &eb0_t0, &eb1_t0, &ea0_t1, &ea1_t1, &eb0_t1, &eb1_t1};
-  return solve(Kind::edge_edge, query_of(points), options);
+  return solve(ContactKind::edge_edge, query_of(points), options);
 }
 
 CertifiedResult solve_vertex_edge(const Point& p_t0, const Point& e0_t0, const Point& e1_t0,

@@ -17,6 +17,7 @@
 #include "fast/step/scene.hpp"
 #include "fast/step/sieve.hpp"
 #include "touchstone/intersections.hpp"
+#include "touchstone/inversion.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -64,7 +65,7 @@ std::vector<StepCollision> all_collisions(const Scene& scene) {
 
 // ---- The earliest -------------------------------------------------------------------------------
 
-/// Search for the earliest impact, or for any. Elements are examined first, which takes little;
+/// Search for the earliest impact, or for any. Cells are examined first, which takes little;
 /// their first inversion limits the search for pairs. The groups of the scene are searched in
 /// rounds: first a few from all over the scene, then more and more. Steps with contacts mostly have
 /// early ones, and on a short interval little moves. So the first rounds search such an interval,
@@ -312,7 +313,7 @@ Motion scaled_vertices(const Motion& vertices, double alpha) {
 
 /// A pair of a step.
 struct NamedPair {
-  PairKind kind;
+  ContactKind kind;
   IndexPair pair;
 };
 
@@ -328,27 +329,27 @@ Query scaled_query(Query query, double alpha) {
 }
 
 /// True if a pair collides in the step scaled by α. \pre strict floating point
-bool collides_scaled(const Scene& scene, PairKind kind, const IndexPair& pair, double alpha) {
+bool collides_scaled(const Scene& scene, ContactKind kind, const IndexPair& pair, double alpha) {
   CertifiedOptions options = scene.certified();
   options.separation = scene.separation_of(kind, pair, options.separation);
   options.t_max = 1.0;
   const Query query = scaled_query(scene.query_of(kind, pair), alpha);
-  return solve(Step::kind_of(kind), query, options).verdict == Verdict::yes;
+  return solve(decided_as(kind), query, options).verdict == Verdict::yes;
 }
 
-/// An element of a step.
-struct NamedElement {
-  Kind kind;
+/// A cell of a step.
+struct NamedCell {
+  CellKind kind;
   std::int32_t number;
 };
 
-/// True if an element inverts in the step scaled by α. \pre strict floating point
-bool inverts_scaled(const Scene& scene, Kind kind, std::int32_t element, double alpha) {
-  return solve(Kind::tetrahedron, scaled_query(scene.query_of(kind, element), alpha)).verdict ==
-         Verdict::yes;
+/// True if a cell inverts in the step scaled by α. \pre strict floating point
+bool inverts_scaled(const Scene& scene, CellKind kind, std::int32_t cell, double alpha) {
+  const Query tetrahedron = scaled_query(scene.tetrahedron_of(kind, cell), alpha);
+  return inversion(CellKind::tetrahedron, tetrahedron).verdict == Verdict::yes;
 }
 
-/// The pairs that may collide, and the elements that may invert, in steps scaled by any α up to
+/// The pairs that may collide, and the cells that may invert, in steps scaled by any α up to
 /// `end`, for a search that tries many of these.
 ///
 /// **Theorem** (docs/theory.md, section 8.4). Let m be the greatest magnitude of a coordinate, and
@@ -359,7 +360,7 @@ bool inverts_scaled(const Scene& scene, Kind kind, std::int32_t element, double 
 /// One search of the step with this separation finds them.
 ///
 /// **Theorem** (docs/theory.md, section 10). Let R be the greatest coordinate of the edges from a
-/// vertex of an element at both ends of the step, and e = 11 u m. If 6 V(0) ≥ 2^10 · 18 e (R + e)²,
+/// vertex of a cell at both ends of the step, and e = 11 u m. If 6 V(0) ≥ 2^10 · 18 e (R + e)²,
 /// and more than 2^-10 V(0) is left in the step up to `end`, it does not invert in such a step.
 ///
 /// So the others are tried.
@@ -381,16 +382,16 @@ class CloseTrials {
     is_complete_ = size <= 0x1p1000 && is_valid(wider) && std::isfinite(wider.distance + thickness);
     if (!is_complete_) return;
     find(wider);
-    find_elements(11.0 * 0x1p-53 * size + 0x1p-1070);
+    find_cells(11.0 * 0x1p-53 * size + 0x1p-1070);
   }
 
   /// True if `is_free` answers for α.
   [[nodiscard]] bool covers(double alpha) const { return is_complete_ && alpha <= end_; }
 
-  /// True if no pair collides and no element inverts in the step scaled by α.
+  /// True if no pair collides and no cell inverts in the step scaled by α.
   [[nodiscard]] bool is_free(double alpha) const {
-    return std::ranges::none_of(elements_,
-                                [&](const NamedElement& one) {
+    return std::ranges::none_of(cells_,
+                                [&](const NamedCell& one) {
                                   return inverts_scaled(scene_, one.kind, one.number, alpha);
                                 }) &&
            std::ranges::none_of(pairs_, [&](const NamedPair& one) {
@@ -399,13 +400,13 @@ class CloseTrials {
   }
 
  private:
-  /// The most pairs, and elements: to try more takes as long as a search of the scaled step.
+  /// The most pairs, and cells: to try more takes as long as a search of the scaled step.
   static constexpr std::size_t most = std::size_t{1} << 15U;
 
   void find(const Separation& wider) {
     const Scene near(scene_.vertices(), scene_, wider);
     std::mutex mutex;
-    for_each_possible_collision(near, end_, [&](PairKind kind, const IndexPair& pair) {
+    for_each_possible_collision(near, end_, [&](ContactKind kind, const IndexPair& pair) {
       const std::scoped_lock lock(mutex);
       is_complete_ = is_complete_ && pairs_.size() < most;
       if (is_complete_) pairs_.push_back({kind, pair});
@@ -413,24 +414,23 @@ class CloseTrials {
   }
 
   /// \param error e
-  void find_elements(double error) {
+  void find_cells(double error) {
     std::mutex mutex;
-    const auto take = [&](Kind kind, std::int32_t number) {
+    const auto take = [&](CellKind kind, std::int32_t number) {
       const std::scoped_lock lock(mutex);
-      is_complete_ = is_complete_ && elements_.size() < most;
-      if (is_complete_) elements_.push_back({kind, number});
+      is_complete_ = is_complete_ && cells_.size() < most;
+      if (is_complete_) cells_.push_back({kind, number});
     };
     scene_.find_inversions(
         {}, 0x1p-10, [&] { return is_complete_ ? end_ : -1.0; },
-        [&](const StepInversion& one) { take(one.kind, one.element); });
-    const auto take_thin = [&](Kind kind, std::size_t size) {
+        [&](const StepInversion& one) { take(one.kind, one.cell); });
+    for (const CellKind kind : cell_kinds) {
+      const std::size_t size = scene_.mesh().count_of(kind);
       for (std::size_t i = 0; i < size && is_complete_; ++i) {
         const auto number = static_cast<std::int32_t>(i);
-        if (is_thin(scene_.query_of(kind, number), error)) take(kind, number);
+        if (is_thin(scene_.tetrahedron_of(kind, number), error)) take(kind, number);
       }
-    };
-    take_thin(Kind::tetrahedron, scene_.mesh().tetrahedra.size());
-    take_thin(Kind::plane_triangle, scene_.mesh().plane_triangles.size());
+    }
   }
 
   /// True unless the inequality of the theorem is certain. (The computed determinant is wrong by
@@ -453,7 +453,7 @@ class CloseTrials {
   double end_;
   std::atomic<bool> is_complete_;
   std::vector<NamedPair> pairs_;
-  std::vector<NamedElement> elements_;
+  std::vector<NamedCell> cells_;
 };
 
 /// Search for a double, 0 or up to a greatest one, that is free while the next one is not.
@@ -518,7 +518,7 @@ class StepSizeSearch {
 
 // ---- Pairs --------------------------------------------------------------------------------------
 
-void require_in_range(const Scene& scene, PairKind kind, const IndexPair& pair) {
+void require_in_range(const Scene& scene, ContactKind kind, const IndexPair& pair) {
   const auto count_of = [&](std::size_t sort) {
     if (sort == Sort::faces) return scene.mesh().faces.size();
     const bool is_edge = sort == Sort::edges || sort == Sort::bare_edges;
@@ -529,15 +529,13 @@ void require_in_range(const Scene& scene, PairKind kind, const IndexPair& pair) 
       std::cmp_less_equal(0, pair[1]) && std::cmp_less(pair[1], count_of(record.all))) {
     return;
   }
-  throw std::out_of_range("step: there is no pair " + std::string(record.name) + " of " +
+  throw std::out_of_range("step: there is no pair " + std::string(to_string(kind)) + " of " +
                           std::to_string(pair[0]) + " and " + std::to_string(pair[1]));
 }
 
 }  // namespace
 
 // ---- Interface ----------------------------------------------------------------------------------
-
-std::string_view to_string(PairKind kind) { return record_of(kind).name; }
 
 Step::Step(Motion vertices, Mesh mesh, const StepOptions& options) {
   require_valid(options.solve);
@@ -635,7 +633,7 @@ std::optional<double> Step::free_step_size() const {
             impact->pairs,
             [&](const auto& one) { return collides_scaled(*scene_, one.kind, one.pair, alpha); }) ||
         std::ranges::any_of(impact->inversions, [&](const auto& one) {
-          return inverts_scaled(*scene_, one.kind, one.element, alpha);
+          return inverts_scaled(*scene_, one.kind, one.cell, alpha);
         });
     if (is_hit_again) return false;
     if (alpha < greatest && !trials) {
@@ -653,7 +651,7 @@ void Step::candidates(const std::function<void(const StepCandidates&)>& take) co
     const Trees<1> trees = scene_->swept_trees();
     const std::vector<SearchPart> parts = scene_->parts(groups_of_part);
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-      const PairKind kind = parts[i].kind;
+      const ContactKind kind = parts[i].kind;
       std::vector<IndexPair> reported;
       for_each_block(
           *scene_, [&](PairBuffer& pairs) { scene_->find_candidates(trees, parts[i], pairs); },
@@ -666,30 +664,27 @@ void Step::candidates(const std::function<void(const StepCandidates&)>& take) co
   });
 }
 
-std::array<std::int32_t, moving_points> Step::vertices_of(PairKind kind,
+std::array<std::int32_t, moving_points> Step::vertices_of(ContactKind kind,
                                                           const IndexPair& pair) const {
   require_in_range(*scene_, kind, pair);
   return scene_->vertices_of(kind, pair);
 }
 
-Query Step::query_of(PairKind kind, const IndexPair& pair) const {
+Query Step::query_of(ContactKind kind, const IndexPair& pair) const {
   require_straight(vertices(), "step: a query");
   require_in_range(*scene_, kind, pair);
   return scene_->query_of(kind, pair);
 }
 
-Query Step::query_of(Kind kind, std::int32_t element) const {
-  const std::size_t count = kind == Kind::tetrahedron      ? mesh().tetrahedra.size()
-                            : kind == Kind::plane_triangle ? mesh().plane_triangles.size()
-                                                           : 0;
-  if (element < 0 || std::cmp_greater_equal(element, count)) {
+Query Step::tetrahedron_of(CellKind kind, std::int32_t cell) const {
+  if (cell < 0 || std::cmp_greater_equal(cell, mesh().count_of(kind))) {
     throw std::out_of_range("step: there is no " + std::string(to_string(kind)) + " " +
-                            std::to_string(element));
+                            std::to_string(cell));
   }
-  return scene_->query_of(kind, element);
+  return scene_->tetrahedron_of(kind, cell);
 }
 
-Separation Step::separation_of(PairKind kind, const IndexPair& pair) const {
+Separation Step::separation_of(ContactKind kind, const IndexPair& pair) const {
   require_in_range(*scene_, kind, pair);
   return scene_->separation_of(kind, pair, scene_->certified().separation);
 }

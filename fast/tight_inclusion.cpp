@@ -187,7 +187,7 @@ class Search {
     }
     workspace_.next_level.push_back(corner);
     // A sum above 1 may round to 1; then the box is kept, which is harmless.
-    if (workspace_.problem.kind == Kind::edge_edge || upper[u_axis] + upper[v_axis] <= 1.0) {
+    if (workspace_.problem.kind == ContactKind::edge_edge || upper[u_axis] + upper[v_axis] <= 1.0) {
       workspace_.next_level.push_back(upper);
     }
   }
@@ -260,7 +260,7 @@ class QuerySolver {
         workspace_(workspace),
         options_(options) {}
 
-  TightInclusionResult solve(Kind kind, const Query& query) {
+  TightInclusionResult solve(ContactKind kind, const Query& query) {
     workspace_.problem.kind = kind;
     const Extent extent = kernel_.load(query, workspace_.problem);
     if (!extent.finite) return {};
@@ -290,7 +290,7 @@ class QuerySolver {
 
  private:
   /// Sets scale, separation and filter.
-  void prepare(Kind kind, const Query& query, Extent extent) {
+  void prepare(ContactKind kind, const Query& query, Extent extent) {
     const double greatest = std::max(std::ranges::max(extent.x_max), options_.separation.distance);
     if (greatest > greatest_unscaled(kernel_)) {
       scale_ = scale_down;
@@ -306,7 +306,8 @@ class QuerySolver {
     }
   }
 
-  [[nodiscard]] std::array<double, 3> filter(Kind kind, const std::array<double, 3>& x_max) const {
+  [[nodiscard]] std::array<double, 3> filter(ContactKind kind,
+                                             const std::array<double, 3>& x_max) const {
     std::array<double, 3> result = options_.scene_filter
                                        ? *options_.scene_filter
                                        : error_filter_(kind, x_max, workspace_.problem.separation);
@@ -348,10 +349,11 @@ Workspace& workspace_of_this_thread() {
 
 /// Passes on the result of each query: take(i, result).
 template <class Take>
-void solve_all(const Queries& queries, const TightInclusionOptions& options, const Take& take) {
-  require_contact(queries.kind);
+void solve_all(const Queries& given, const TightInclusionOptions& options, const Take& take) {
   require_strict_environment();
   require_valid(options);
+  std::vector<double> memory;
+  const Queries queries = decided_queries(given, memory);
   const TightInclusionVariant usual{kernel_of(queries, options), error_filter};
   Workspace& workspace = workspace_of_this_thread();
   const std::size_t size = queries.size();
@@ -374,20 +376,21 @@ class TightInclusionMethod final : public Method {
 
   [[nodiscard]] const MethodInfo& info() const override { return info_; }
 
-  void solve(const Queries& queries, std::span<Answer> answers,
+  void solve(const AnyQueries& queries, std::span<Answer> answers,
              const MethodOptions& options) const override {
     const TightInclusionOptions all{.tolerance = options.tolerance,
                                     .max_checks = options.max_checks,
                                     .separation = options.separation,
                                     .t_max = options.t_max,
                                     .kernel = kernel_};
-    solve_all(queries, all, [&](std::size_t i, const TightInclusionResult& result) {
-      answers[i] = {.verdict = result.verdict,
-                    .checks = to_answer_checks(result.checks),
-                    .toi_lower = result.toi,
-                    .toi_upper = Answer::none,
-                    .tolerance = result.tolerance};
-    });
+    solve_all(queries.as(queries.kind.contact()), all,
+              [&](std::size_t i, const TightInclusionResult& result) {
+                answers[i] = {.verdict = result.verdict,
+                              .checks = to_answer_checks(result.checks),
+                              .toi_lower = result.toi,
+                              .toi_upper = Answer::none,
+                              .tolerance = result.tolerance};
+              });
   }
 
  private:
@@ -405,14 +408,14 @@ class TightInclusionMethod final : public Method {
 
 }  // namespace
 
-TightInclusionResult tight_inclusion(Kind kind, const Query& query,
+TightInclusionResult tight_inclusion(ContactKind kind, const Query& query,
                                      const TightInclusionOptions& options) {
   TightInclusionResult result;
   tight_inclusion(Queries(kind, std::span(&query, 1)), std::span(&result, 1), options);
   return result;
 }
 
-TightInclusionResult tight_inclusion(Kind kind, const Query& query,
+TightInclusionResult tight_inclusion(ContactKind kind, const Query& query,
                                      const TightInclusionOptions& options,
                                      const TightInclusionVariant& variant) {
   require_strict_environment();

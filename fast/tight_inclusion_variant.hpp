@@ -19,7 +19,7 @@ struct TightInclusionVariant {
 };
 
 /// Solves one query on straight lines, as tight_inclusion() does.
-[[nodiscard]] TightInclusionResult tight_inclusion(Kind kind, const Query& query,
+[[nodiscard]] TightInclusionResult tight_inclusion(ContactKind kind, const Query& query,
                                                    const TightInclusionOptions& options,
                                                    const TightInclusionVariant& variant);
 

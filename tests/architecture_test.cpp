@@ -38,7 +38,8 @@ using Words = std::vector<std::string>;
 constexpr std::string_view layer_lines = R"(
   exact/query.hpp: exact/cxx20.hpp Eigen/
   exact/curved_query.hpp: exact/query.hpp
-  exact/element.hpp: exact/curved_query.hpp exact/query.hpp
+  exact/cell.hpp: exact/curved_query.hpp exact/query.hpp
+  exact/any_kind.hpp: exact/cell.hpp exact/query.hpp
   exact/: exact/ CGAL/ Eigen/ gmp.h gmpxx.h
 // Certificates of scenes join the searches of fast, the proofs of the oracle, and what the checker
 // says of arguments; nothing of these three includes them.
@@ -50,7 +51,7 @@ constexpr std::string_view layer_lines = R"(
   filters/: filters/
   filters/derivation/: filters/ filters/derivation/ fmt/ gmp.h gmpxx.h signal.h spawn.h sys/ unistd.h
 // Vectors, the processor's floating-point control, and large pages; oneTBB is optional.
-  fast/: fast/ filters/ exact/curved_query.hpp exact/element.hpp exact/query.hpp Eigen/ arm_neon.h immintrin.h xmmintrin.h sys/mman.h
+  fast/: fast/ filters/ exact/any_kind.hpp exact/cell.hpp exact/curved_query.hpp exact/query.hpp Eigen/ arm_neon.h immintrin.h xmmintrin.h sys/mman.h
   fast/platform/: fast/platform/ filters/ arm_neon.h immintrin.h sys/mman.h xmmintrin.h
   fast/platform/threads.hpp: fast/platform/floating_point_state.hpp oneapi/tbb/
 // Each folder of fast includes those above it, and the headers named with it.
@@ -58,14 +59,16 @@ constexpr std::string_view layer_lines = R"(
   fast/tight_inclusion/: fast/tight_inclusion/ fast/platform/ filters/ exact/query.hpp immintrin.h
   fast/certified/exact/: fast/certified/exact/ exact/curved_query.hpp exact/query.hpp Eigen/
   fast/certified/fixed_point_vertices.hpp: fast/platform/ fast/mesh.hpp
-  fast/certified/kernel.hpp: fast/certified/fixed_point_vertices.hpp fast/platform/ fast/mesh.hpp exact/query.hpp
+  fast/certified/kernel.hpp: fast/certified/fixed_point_vertices.hpp fast/platform/ fast/mesh.hpp exact/cell.hpp exact/query.hpp
   fast/certified/stages/: fast/certified/stages/ fast/certified/fixed_point_vertices.hpp fast/certified/kernel.hpp filters/ exact/query.hpp
   fast/certified/curves/: fast/certified/curves/ fast/certified/stages/ fast/certified/kernel.hpp fast/platform/ filters/ exact/query.hpp
-  fast/certified/: fast/certified/ fast/platform/ fast/certified.hpp fast/mesh.hpp filters/ exact/curved_query.hpp exact/query.hpp immintrin.h
+  fast/certified/: fast/cells/stages.hpp fast/certified/ fast/platform/ fast/certified.hpp fast/mesh.hpp filters/ exact/curved_query.hpp exact/query.hpp immintrin.h
+  fast/cells/: fast/cells/ fast/certified/ fast/inversion.hpp
+  fast/cells/stages.hpp: fast/certified/stages/
   fast/distance/: fast/distance/ fast/certified/exact/ fast/platform/ fast/contacts.hpp fast/kernels.hpp fast/step.hpp filters/ exact/query.hpp Eigen/ arm_neon.h immintrin.h
   fast/intersections/: fast/intersections/ fast/broad_phase/ fast/certified/exact/ fast/distance/ fast/platform/ fast/mesh.hpp fast/intersections.hpp filters/ immintrin.h
-  fast/step/: fast/step/ fast/broad_phase/ fast/certified/ fast/platform/ fast/broad_phase.hpp fast/candidates.hpp fast/contacts.hpp fast/kernels.hpp fast/mesh.hpp fast/step.hpp exact/element.hpp
-  adapters/: adapters/ fast/ exact/query.hpp Eigen/
+  fast/step/: fast/step/ fast/broad_phase/ fast/cells/ fast/certified/ fast/platform/ fast/broad_phase.hpp fast/candidates.hpp fast/contacts.hpp fast/kernels.hpp fast/mesh.hpp fast/step.hpp exact/cell.hpp
+  adapters/: adapters/ fast/ exact/any_kind.hpp exact/query.hpp Eigen/
   adapters/ipc_toolkit.hpp: fast/ exact/query.hpp ipc/ccd/narrow_phase_ccd.hpp
   adapters/ipc_toolkit_step.hpp: adapters/ipc_toolkit.hpp fast/ exact/query.hpp ipc/collision_mesh.hpp
   adapters/tight_inclusion/logger.hpp: spdlog/
@@ -77,12 +80,12 @@ constexpr std::string_view layer_lines = R"(
 // The modules, packages, and POSIX.
   REST: exact/ exact/checker/ exact/scene/ filters/ fast/ verify/plugin.h Eigen/ fmt/ gmp.h gmpxx.h nlohmann/ oneapi/tbb/ zip.h zstd.h dlfcn.h fcntl.h poll.h sys/ time.h unistd.h
   verify/:
-  verify/base/: REST
+  verify/base/: verify/base/ REST
   verify/io/: verify/io/ REST
   verify/data/: verify/data/ verify/base/ verify/io/ REST
   verify/mesh/: verify/mesh/ verify/data/ verify/io/ REST
   verify/generate/: verify/generate/ verify/data/ verify/io/ verify/mesh/ REST
-  verify/baselines/: verify/baselines/ fast/ filters/ exact/curved_query.hpp exact/element.hpp exact/query.hpp Eigen/
+  verify/baselines/: verify/baselines/ fast/ filters/ exact/any_kind.hpp exact/cell.hpp exact/curved_query.hpp exact/query.hpp Eigen/
 // Plugins: they use packages that simulators do not need, and the rounding mode.
   verify/published/: verify/published/ verify/baselines/ verify/generate/random_stream.hpp verify/plugin.h fast/ filters/ gmpxx.h exact/query.hpp Eigen/ xmmintrin.h
   verify/judge/: verify/judge/ verify/base/ verify/data/ verify/io/ REST
@@ -127,10 +130,11 @@ constexpr std::string_view headers_without_test = R"(
 // The kernels, which take the same queries in the same tests; the deciders; distances, steps, and the
 // search for pairs, against all pairs one by one; intersections, beside rational arithmetic.
   fast/broad_phase/: body_tree.hpp box_tree.hpp division_on_lanes.hpp search_on_lanes.hpp seeds.hpp swept_box.hpp words_one_by_one.hpp
+  fast/cells/: stages.hpp
   fast/certified/: curves.hpp kernel_on_lanes.hpp
   fast/certified/curves/: contact_proof.hpp control_polygon.hpp
   fast/certified/exact/: contact_conditions.hpp distance_decision.hpp enclosing_doubles.hpp fraction.hpp polynomial.hpp real_root.hpp
-  fast/certified/stages/: axis.hpp bisection.hpp conservative_advancement.hpp crossing.hpp determinant.hpp direction.hpp distance_enclosure.hpp inversion.hpp lanes.hpp moving_polygon.hpp moving_vectors.hpp only_zero.hpp orientation.hpp refinement.hpp single_precision.hpp
+  fast/certified/stages/: axis.hpp bisection.hpp conservative_advancement.hpp crossing.hpp determinant.hpp direction.hpp distance_enclosure.hpp lanes.hpp moving_polygon.hpp moving_vectors.hpp only_zero.hpp orientation.hpp refinement.hpp single_precision.hpp
   fast/distance/: filter_on_lanes.hpp polygon_features.hpp
   fast/intersections/: filter_on_lanes.hpp orientation.hpp pair_filter.hpp pair_order.hpp pair_order_avx2.hpp triangle_contacts.hpp
   fast/platform/: floating_point_state.hpp lanes.hpp lanes_avx2.hpp lanes_avx512.hpp lanes_neon.hpp

@@ -11,14 +11,17 @@
 #include <functional>
 #include <limits>
 #include <new>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "touchstone/any_kind.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/step.hpp"
 
 // A step, and what is found in it.
@@ -30,7 +33,7 @@ struct TouchstoneStep {
   std::vector<TouchstoneActiveContact> active = {};
   std::vector<TouchstoneStepInversion> inversions = {};
   std::vector<TouchstoneCollision> limiting = {};
-  std::vector<TouchstoneStepInversion> limiting_elements = {};
+  std::vector<TouchstoneStepInversion> limiting_cells = {};
 };
 
 namespace touchstone::adapters {
@@ -113,12 +116,22 @@ Norm norm_of(std::int32_t norm) {
   throw std::invalid_argument("norm is neither TOUCHSTONE_LINF nor TOUCHSTONE_L2");
 }
 
-Kind kind_of(std::int32_t kind) {
-  if (kind == TOUCHSTONE_VERTEX_FACE) return Kind::vertex_face;
-  if (kind == TOUCHSTONE_EDGE_EDGE) return Kind::edge_edge;
-  if (kind == TOUCHSTONE_TETRAHEDRON) return Kind::tetrahedron;
-  if (kind == TOUCHSTONE_PLANE_TRIANGLE) return Kind::plane_triangle;
-  throw std::invalid_argument("kind is none of TouchstoneKind that queries have");
+AnyKind any_kind_of(std::int32_t number) {
+  const std::optional<AnyKind> kind = AnyKind::with_number(number);
+  if (!kind) throw std::invalid_argument("kind is none of TouchstoneKind");
+  return *kind;
+}
+
+ContactKind kind_of(std::int32_t number) {
+  const AnyKind kind = any_kind_of(number);
+  if (!kind.is_cell()) return kind.contact();
+  throw std::invalid_argument("kind is one of a cell: touchstone_inversions decides cells");
+}
+
+CellKind cell_kind_of(std::int32_t number) {
+  const AnyKind kind = any_kind_of(number);
+  if (kind.is_cell()) return kind.cell();
+  throw std::invalid_argument("kind is none of a cell: touchstone_solve decides contacts");
 }
 
 /// The caller's structure; members beyond its size are those of `usual`, which the header's
@@ -149,7 +162,7 @@ TouchstoneOptions given(const TouchstoneOptions* options) {
 
 TouchstoneMesh given(const TouchstoneMesh* mesh) {
   return taken(&required(mesh, "mesh"), touchstone_empty_mesh(),
-               offsetof(TouchstoneMesh, tetrahedra), "touchstone_empty_mesh");
+               offsetof(TouchstoneMesh, cell_lists), "touchstone_empty_mesh");
 }
 
 TouchstoneLineSearchOptions given(const TouchstoneLineSearchOptions* options) {
@@ -190,6 +203,25 @@ void solve(std::int32_t kind, std::size_t count, const double* coordinates,
   if (count > 0) std::ranges::transform(results, &required(impacts, "impacts"), impact_of);
 }
 
+void invert(std::int32_t kind, std::size_t count, const double* coordinates,
+            const TouchstoneOptions& options, TouchstoneInversion* inversions) {
+  if (!is_zero(certified_of(options).separation)) {
+    throw std::invalid_argument("a cell has no min_separation");
+  }
+  const auto cells = copied<Query>(coordinates, count, "coordinates");
+  std::vector<fast::Inversion> results(count);
+  fast::inversions({cell_kind_of(kind), cells}, results,
+                   {.toi_tolerance = options.toi_tolerance,
+                    .t_max = options.t_max,
+                    .max_threads = options.max_threads});
+  if (count == 0) return;
+  std::ranges::transform(results, &required(inversions, "inversions"),
+                         [](const fast::Inversion& one) {
+                           return TouchstoneInversion{static_cast<std::int32_t>(one.verdict),
+                                                      one.start, one.toi_lower, one.toi_upper};
+                         });
+}
+
 TouchstoneDistance distance_of(const fast::Distance& distance) {
   return {distance.lower, distance.upper};
 }
@@ -219,13 +251,19 @@ std::vector<fast::GroupSeparation> separations_of(const TouchstoneMesh& mesh) {
 }
 
 fast::Mesh elements_of(const TouchstoneMesh& mesh) {
-  return {.edges = copied<fast::Edge>(mesh.edge_vertices, mesh.edges, "edge_vertices"),
-          .faces = copied<fast::Face>(mesh.face_vertices, mesh.faces, "face_vertices"),
-          .points = copied<std::int32_t>(mesh.point_vertices, mesh.points, "point_vertices"),
-          .tetrahedra = copied<fast::Tetrahedron>(mesh.tetrahedron_vertices, mesh.tetrahedra,
-                                                  "tetrahedron_vertices"),
-          .plane_triangles = copied<fast::Face>(mesh.plane_triangle_vertices, mesh.plane_triangles,
-                                                "plane_triangle_vertices")};
+  fast::Mesh result{
+      .edges = copied<fast::Edge>(mesh.edge_vertices, mesh.edges, "edge_vertices"),
+      .faces = copied<fast::Face>(mesh.face_vertices, mesh.faces, "face_vertices"),
+      .points = copied<std::int32_t>(mesh.point_vertices, mesh.points, "point_vertices")};
+  for (std::size_t i = 0; i < mesh.cell_lists; ++i) {
+    const TouchstoneCells& some = (&required(mesh.cells, "cells"))[i];
+    const CellKind kind = cell_kind_of(some.kind);
+    const std::size_t numbers = some.count * record_of(kind).point_count;
+    if (numbers / record_of(kind).point_count != some.count)
+      throw std::length_error("cells: too many");
+    result.add_cells(kind, copied<std::int32_t>(some.vertices, numbers, "vertices of cells"));
+  }
+  return result;
 }
 
 fast::CollisionGroups groups_of(const TouchstoneMesh& mesh) {
@@ -272,7 +310,7 @@ fast::Step step_of(const TouchstoneMesh& mesh, const TouchstoneOptions& options)
           .solve = certified_of(options), .groups = groups_of(mesh), .can_collide = rule_of(mesh)}};
 }
 
-TouchstonePair pair_of(fast::PairKind kind, const fast::IndexPair& pair) {
+TouchstonePair pair_of(ContactKind kind, const fast::IndexPair& pair) {
   return {static_cast<std::int32_t>(kind), pair[0], pair[1]};
 }
 
@@ -282,9 +320,8 @@ TouchstoneCollision collision_of(const fast::StepCollision& collision) {
 }
 
 TouchstoneStepInversion inversion_in_step(const fast::StepInversion& one) {
-  const bool is_tetrahedron = one.kind == Kind::tetrahedron;
-  return {is_tetrahedron ? TOUCHSTONE_TETRAHEDRON : TOUCHSTONE_PLANE_TRIANGLE, one.element,
-          one.start, one.toi_lower, one.toi_upper};
+  return {static_cast<std::int32_t>(AnyKind(one.kind).number()), one.cell, one.start, one.toi_lower,
+          one.toi_upper};
 }
 
 fast::StepCollision collision_from(const TouchstoneCollision& collision) {
@@ -292,7 +329,7 @@ fast::StepCollision collision_from(const TouchstoneCollision& collision) {
   if (kind < TOUCHSTONE_VERTEX_FACE || kind > TOUCHSTONE_VERTEX_VERTEX) {
     throw std::invalid_argument("the kind of a pair is none of TouchstoneKind");
   }
-  return {.kind = static_cast<fast::PairKind>(kind),
+  return {.kind = static_cast<ContactKind>(kind),
           .pair = {first, second},
           .toi_lower = collision.toi_lower,
           .toi_upper = collision.toi_upper,
@@ -345,10 +382,12 @@ static_assert(static_cast<int>(fast::LineSearchStatus::in_contact) == TOUCHSTONE
 static_assert(static_cast<int>(fast::LineSearchStatus::too_small) == TOUCHSTONE_TOO_SMALL);
 static_assert(static_cast<int>(fast::LineSearchStatus::inverted) == TOUCHSTONE_INVERTED);
 
-static_assert(static_cast<int>(fast::PairKind::vertex_face) == TOUCHSTONE_VERTEX_FACE);
-static_assert(static_cast<int>(fast::PairKind::edge_edge) == TOUCHSTONE_EDGE_EDGE);
-static_assert(static_cast<int>(fast::PairKind::vertex_edge) == TOUCHSTONE_VERTEX_EDGE);
-static_assert(static_cast<int>(fast::PairKind::vertex_vertex) == TOUCHSTONE_VERTEX_VERTEX);
+static_assert(AnyKind(ContactKind::vertex_face).number() == TOUCHSTONE_VERTEX_FACE);
+static_assert(AnyKind(ContactKind::edge_edge).number() == TOUCHSTONE_EDGE_EDGE);
+static_assert(AnyKind(ContactKind::vertex_edge).number() == TOUCHSTONE_VERTEX_EDGE);
+static_assert(AnyKind(ContactKind::vertex_vertex).number() == TOUCHSTONE_VERTEX_VERTEX);
+static_assert(AnyKind(CellKind::tetrahedron).number() == TOUCHSTONE_TETRAHEDRON);
+static_assert(AnyKind(CellKind::plane_triangle).number() == TOUCHSTONE_PLANE_TRIANGLE);
 
 }  // namespace
 }  // namespace touchstone::adapters
@@ -363,6 +402,12 @@ const char* touchstone_last_error() { return last_error().c_str(); }
 std::int32_t touchstone_solve(std::int32_t kind, std::size_t count, const double* coordinates,
                               const TouchstoneOptions* options, TouchstoneImpact* impacts) {
   return guarded([&] { solve(kind, count, coordinates, given(options), impacts); });
+}
+
+std::int32_t touchstone_inversions(std::int32_t kind, std::size_t count, const double* coordinates,
+                                   const TouchstoneOptions* options,
+                                   TouchstoneInversion* inversions) {
+  return guarded([&] { invert(kind, count, coordinates, given(options), inversions); });
 }
 
 std::int32_t touchstone_distances(std::int32_t kind, std::size_t count, const double* coordinates,
@@ -485,13 +530,13 @@ std::int32_t touchstone_step_line_search_limit(TouchstoneStep* step, double p,
     const touchstone::fast::LineSearchLimit found =
         touchstone::fast::line_search_limit(asked.step, p, line_search_options_of(given(options)));
     refill(asked.limiting, found.pairs, collision_of);
-    refill(asked.limiting_elements, found.inversions, inversion_in_step);
+    refill(asked.limiting_cells, found.inversions, inversion_in_step);
     written = {static_cast<std::int32_t>(found.status),
                found.step_size,
                distance_of(found.distance),
                asked.limiting.data(),
                asked.limiting.size(),
-               asked.limiting_elements.data(),
-               asked.limiting_elements.size()};
+               asked.limiting_cells.data(),
+               asked.limiting_cells.size()};
   });
 }

@@ -56,9 +56,9 @@ void write_bits(std::string& text, std::uint64_t bits) {
 }
 
 void write_kind(std::string& text, const Certificate& certificate) {
-  text += certificate.kind == Kind::tetrahedron ? "query tetrahedron\n"
-          : certificate.kind == Kind::edge_edge ? "query edge_edge\n"
-                                                : "query vertex_face\n";
+  text += certificate.kind.is_cell()                   ? "query tetrahedron\n"
+          : certificate.kind == ContactKind::edge_edge ? "query edge_edge\n"
+                                                       : "query vertex_face\n";
 }
 
 void write_label(std::string& text, std::string_view label) {
@@ -104,7 +104,7 @@ void write_interval(std::string& text, const RationalInterval& interval) {
 }
 
 void write_claim(std::string& text, const Certificate& certificate) {
-  const bool is_tetrahedron = certificate.kind == Kind::tetrahedron;
+  const bool is_tetrahedron = certificate.kind.is_cell();
   switch (certificate.claim) {
     case Claim::no_collision:
       text += is_tetrahedron ? "claim no_inversion\n" : "claim no_collision\n";

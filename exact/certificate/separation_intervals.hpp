@@ -41,7 +41,7 @@ template <class Order>
                                                 const Rational& until);
 
 /// The same of positive volume: subintervals of the feature `negative_face`, whose condition at
-/// distance 0 is −det(a − b, a − c, a − d) = det(b − a, c − a, d − a) > 0 (touchstone/element.hpp).
+/// distance 0 is −det(a − b, a − c, a − d) = det(b − a, c − a, d − a) > 0 (touchstone/cell.hpp).
 /// There are several only where a checker would have to bisect too often.
 /// \param motion a tetrahedron as a vertex and a face, in any units
 /// \pre the volume is positive in [0,until]. \throws as separate.

@@ -154,7 +154,7 @@ class CubeContact {
                             normal_component(motion_, 2)};
     if (!reaches_across(normal)) return std::nullopt;
     // Opposite sides of a parallelogram are parallel.
-    const std::size_t sides = motion_.kind == Kind::vertex_face ? 3 : 2;
+    const std::size_t sides = motion_.kind == ContactKind::vertex_face ? 3 : 2;
     for (std::size_t i = 0; i < sides; ++i) {
       if (!reaches_across_side(i)) return std::nullopt;
     }

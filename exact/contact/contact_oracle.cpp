@@ -132,7 +132,7 @@ auto scaled_contact_function(const MotionOf<Order>& motion, const ContactForms<O
   const auto& [u, v, d] = contact;
   const auto point = [&](std::size_t i) -> const auto& { return motion.points.at(i).at(axis); };
   typename Order::template Form<3> value{};
-  if (motion.kind == Kind::vertex_face) {
+  if (motion.kind == ContactKind::vertex_face) {
     add_product(value, d, point(0));
     subtract_product(value, d - u - v, point(1));
     subtract_product(value, u, point(2));
@@ -156,7 +156,7 @@ void check_contact(const MotionOf<Order>& motion, const ContactForms<Order>& con
   };
   require_nonnegative(u);
   require_nonnegative(v);
-  if (motion.kind == Kind::vertex_face) {
+  if (motion.kind == ContactKind::vertex_face) {
     require_nonnegative(d - u - v);
   } else {
     require_nonnegative(d - u);

@@ -67,7 +67,7 @@ int axis_exponent(const Query& query, std::size_t axis) {
 }
 
 /// The motion in units 2^units of each axis.
-Motion in_units(Kind kind, const Query& query, const std::array<int, 3>& units) {
+Motion in_units(ContactKind kind, const Query& query, const std::array<int, 3>& units) {
   Motion motion{.kind = kind, .points = {}, .corners = {}, .corner_count = 0};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t end = 0; end < 2; ++end) {
@@ -179,13 +179,13 @@ int sign_at(std::span<const Integer> form, AlgebraicNumber& t) {
   return (positive ? 1 : 0) - (negative ? 1 : 0);
 }
 
-Motion scale(Kind kind, const Query& query, const Separation& separation) {
+Motion scale(ContactKind kind, const Query& query, const Separation& separation) {
   if (!is_zero(separation)) return scale_uniformly(kind, query, separation);
   return in_units(kind, query,
                   {axis_exponent(query, 0), axis_exponent(query, 1), axis_exponent(query, 2)});
 }
 
-Motion scale_uniformly(Kind kind, const Query& query, const Separation& separation) {
+Motion scale_uniformly(ContactKind kind, const Query& query, const Separation& separation) {
   const Decomposed distance = distance_of(separation);
   int unit = last_exponent(distance);
   for (std::size_t axis = 0; axis < 3; ++axis) unit = std::min(unit, axis_exponent(query, axis));
@@ -198,7 +198,7 @@ Motion scale_uniformly(Kind kind, const Query& query, const Separation& separati
 namespace {
 
 /// \param is_uniform One unit for all axes.
-MotionOf<Curved> scaled(Kind kind, const CurvedQuery& query, const Separation& separation,
+MotionOf<Curved> scaled(ContactKind kind, const CurvedQuery& query, const Separation& separation,
                         bool is_uniform) {
   const Decomposed distance = distance_of(separation);
   std::array<int, 3> units{no_exponent, no_exponent, no_exponent};
@@ -246,11 +246,11 @@ MotionOf<Curved> scaled(Kind kind, const CurvedQuery& query, const Separation& s
 
 }  // namespace
 
-MotionOf<Curved> scale(Kind kind, const CurvedQuery& query, const Separation& separation) {
+MotionOf<Curved> scale(ContactKind kind, const CurvedQuery& query, const Separation& separation) {
   return scaled(kind, query, separation, !is_zero(separation));
 }
 
-MotionOf<Curved> scale_uniformly(Kind kind, const CurvedQuery& query,
+MotionOf<Curved> scale_uniformly(ContactKind kind, const CurvedQuery& query,
                                  const Separation& separation) {
   return scaled(kind, query, separation, true);
 }

@@ -202,7 +202,7 @@ struct MotionOf {
   using Form = typename Order::template Form<n>;
   using Point = std::array<Form<1>, 3>;
 
-  Kind kind;
+  ContactKind kind;
   std::array<Point, moving_points> points;
   /// w_0..w_2 (vertex_face) or w_0..w_3 (edge_edge), in the order of touchstone::corners.
   std::array<Point, 4> corners;
@@ -234,19 +234,19 @@ void set_corners(MotionOf<Order>& motion) {
 /// Exact for all finite doubles, in every floating-point environment.
 /// \throws std::domain_error if a coordinate is NaN or infinite; std::invalid_argument if the
 /// separation is not valid.
-[[nodiscard]] Motion scale_uniformly(Kind kind, const Query& query,
+[[nodiscard]] Motion scale_uniformly(ContactKind kind, const Query& query,
                                      const Separation& separation = {.distance = 0.0,
                                                                      .norm = Norm::l2});
 
 /// \throws as of a Query, and std::domain_error if a weight is not positive, std::invalid_argument
 /// if the query is not valid.
-[[nodiscard]] MotionOf<Curved> scale_uniformly(Kind kind, const CurvedQuery& query,
+[[nodiscard]] MotionOf<Curved> scale_uniformly(ContactKind kind, const CurvedQuery& query,
                                                const Separation& separation);
 
 /// As scale_uniformly of the same query, but if the distance is 0, each axis is scaled by its own
 /// power of two.
-[[nodiscard]] Motion scale(Kind kind, const Query& query, const Separation& separation = {});
-[[nodiscard]] MotionOf<Curved> scale(Kind kind, const CurvedQuery& query,
+[[nodiscard]] Motion scale(ContactKind kind, const Query& query, const Separation& separation = {});
+[[nodiscard]] MotionOf<Curved> scale(ContactKind kind, const CurvedQuery& query,
                                      const Separation& separation = {});
 
 /// Component `axis` of w_i × w_j as a function of time.

@@ -75,7 +75,7 @@ class Values {
     for (const Sort sort : {Sort::positive_face, Sort::negative_face}) {
       result.push_back({.sort = sort});
     }
-    const std::size_t sides = motion_.kind == Kind::vertex_face ? 3 : 2;
+    const std::size_t sides = motion_.kind == ContactKind::vertex_face ? 3 : 2;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (std::size_t i = 0; i < sides; ++i) {
         const std::size_t j = (i + 1) % corners();

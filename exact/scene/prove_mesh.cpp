@@ -343,13 +343,13 @@ class MeshProver : private ProofWriter {
     return {std::min(result[0], result[1]), std::max(result[0], result[1])};
   }
 
-  [[nodiscard]] std::int32_t number_of(fast::ElementKind kind, std::int32_t number) const {
-    if (kind == fast::ElementKind::face) return number;
+  [[nodiscard]] std::int32_t number_of(fast::PrimitiveKind kind, std::int32_t number) const {
+    if (kind == fast::PrimitiveKind::face) return number;
     std::size_t place = elements_.faces();
     const auto place_in = [](const auto& list, auto found) {
       return static_cast<std::size_t>(found - list.begin());
     };
-    if (kind == fast::ElementKind::edge) {
+    if (kind == fast::PrimitiveKind::edge) {
       const fast::Edge& edge = listed_.mesh.edges[static_cast<std::size_t>(number)];
       place += place_in(scene_.edges, std::ranges::lower_bound(scene_.edges, edge, is_before));
     } else {

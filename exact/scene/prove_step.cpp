@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -27,7 +28,7 @@ namespace {
 
 /// A pair of the step.
 struct Pair {
-  fast::PairKind kind;
+  ContactKind kind;
   fast::IndexPair numbers;
 
   [[nodiscard]] std::size_t kind_number() const { return static_cast<std::size_t>(kind); }
@@ -54,12 +55,7 @@ class PairVertices {
   Counts counts_;
 };
 
-/// The name of a kind of elements in certificates.
-std::string_view keyword_of(Kind kind) {
-  return step_element_kinds.at(kind == Kind::plane_triangle ? 1 : 0);
-}
-
-/// The earliest contact: the pair or the element, and the certificate of its time.
+/// The earliest contact: the pair or the cell, and the certificate of its time.
 struct FirstContact {
   std::string name;
   Certificate certificate;
@@ -71,30 +67,32 @@ std::optional<FirstContact> first_contact(const fast::Step& step) {
   if (!impact) return std::nullopt;
   struct Candidate {
     std::string name;
-    Kind kind;
-    Query query;
-    Decision decision;
+    AlgebraicNumber toi;
+    std::function<Certificate()> prove;
   };
   std::optional<Candidate> first;
-  const auto consider = [&](std::string name, Kind kind, const Query& query,
-                            const Separation& separation) {
-    Decision decision = decide(kind, query, separation);
-    if (!decision.toi || (first && *decision.toi >= *first->decision.toi)) return;
-    first = {std::move(name), kind, query, std::move(decision)};
+  const auto consider = [&](std::string name, const std::optional<AlgebraicNumber>& toi,
+                            std::function<Certificate()> prove) {
+    if (!toi || (first && *toi >= first->toi)) return;
+    first = {std::move(name), *toi, std::move(prove)};
   };
   for (const fast::StepCollision& collision : impact->pairs) {
     const Pair pair{collision.kind, collision.pair};
     const auto& [i, j] = pair.numbers;
-    consider(words("pair", pair.kind_name(), i, j), fast::Step::kind_of(pair.kind),
-             step.query_of(pair.kind, pair.numbers), step.separation_of(pair.kind, pair.numbers));
+    const Query query = step.query_of(pair.kind, pair.numbers);
+    const Decision decision = decide(pair.kind, query, step.separation_of(pair.kind, pair.numbers));
+    consider(words("pair", pair.kind_name(), i, j), decision.toi,
+             [=, kind = pair.kind] { return prove(kind, query, decision); });
   }
   for (const fast::StepInversion& one : impact->inversions) {
-    if (first && *first->decision.toi == Rational(0)) break;
-    consider(words("element", keyword_of(one.kind), one.element), Kind::tetrahedron,
-             step.query_of(one.kind, one.element), {});
+    if (first && first->toi == Rational(0)) break;
+    const Query cell = step.tetrahedron_of(one.kind, one.cell);
+    const auto toi = first_inversion(CellKind::tetrahedron, cell);
+    consider(words("element", record_of(one.kind).keyword, one.cell), toi,
+             [=] { return prove_inversion(CellKind::tetrahedron, cell, toi); });
   }
   if (!first) throw std::logic_error("touchstone: the earliest impact is none");
-  return FirstContact{std::move(first->name), prove(first->kind, first->query, first->decision)};
+  return FirstContact{std::move(first->name), first->prove()};
 }
 
 class StepProver : private ProofWriter {
@@ -109,15 +107,14 @@ class StepProver : private ProofWriter {
       end_ = first ? first->certificate.toi.lower : Rational(decisions_.t_max);
       const bool is_at_zero = first && sgn(first->certificate.toi.upper) == 0;
       const std::vector<Pair> pairs = is_at_zero ? std::vector<Pair>() : needed_pairs();
-      const std::size_t tetrahedra = scene_.mesh.tetrahedra.size();
-      const std::size_t triangles = scene_.mesh.plane_triangles.size();
-      expect_arguments(pairs.size(), tetrahedra + triangles);
+      std::size_t cells = 0;
+      for (const CellKind kind : cell_kinds) cells += scene_.mesh.count_of(kind);
+      expect_arguments(pairs.size(), cells);
       write_scene();
       write_claim(first);
       if (!is_at_zero) {
         write_pairs(pairs);
-        write_volumes(Kind::tetrahedron, tetrahedra);
-        write_volumes(Kind::plane_triangle, triangles);
+        for (const CellKind kind : cell_kinds) write_volumes(kind, scene_.mesh.count_of(kind));
       }
     } catch (const CertificateLimitError& error) {
       proof().failure = error.what();
@@ -142,11 +139,17 @@ class StepProver : private ProofWriter {
     }
     scene_.write(text);
     write_thickness(text);
-    const auto& [tetrahedra, plane_triangles] = step_element_lists;
-    const fast::Mesh& mesh = scene_.mesh;
-    if (!mesh.tetrahedra.empty()) write_list(text, tetrahedra, mesh.tetrahedra);
-    if (!mesh.plane_triangles.empty()) write_list(text, plane_triangles, mesh.plane_triangles);
+    for (const CellKind kind : cell_kinds) write_cells(text, kind);
     put(text);
+  }
+
+  void write_cells(std::string& text, CellKind kind) const {
+    const std::span corners = scene_.mesh.corners_of(kind);
+    const std::size_t count = record_of(kind).point_count;
+    if (!corners.empty()) write_line(text, record_of(kind).list, scene_.mesh.count_of(kind));
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      text += std::to_string(corners[i]) + ((i + 1) % count == 0 ? '\n' : ' ');
+    }
   }
 
   void write_thickness(std::string& text) const {
@@ -249,24 +252,24 @@ class StepProver : private ProofWriter {
     return pairs;
   }
 
-  /// Writes the subintervals of the elements of a kind that need several.
-  void write_volumes(Kind kind, std::size_t count) {
+  /// Writes the subintervals of the cells of a kind that need several.
+  void write_volumes(CellKind kind, std::size_t count) {
     if (count == 0 || !proof().is_complete()) return;
-    put(words(keyword_of(kind)) + '\n');
+    put(words(record_of(kind).keyword) + '\n');
     write_arguments(count, [&](std::size_t number, Arguments& arguments) {
       argue_volume(kind, number, arguments);
     });
   }
 
-  void argue_volume(Kind kind, std::size_t number, Arguments& arguments) const try {
-    const Query element = step_.query_of(kind, static_cast<std::int32_t>(number));
-    const auto subintervals = keep_volume(scale(Kind::vertex_face, element), end_);
+  void argue_volume(CellKind kind, std::size_t number, Arguments& arguments) const try {
+    const Query cell = step_.tetrahedron_of(kind, static_cast<std::int32_t>(number));
+    const auto subintervals = keep_volume(scale(ContactKind::vertex_face, cell), end_);
     if (subintervals.size() == 1) return;
     ++arguments.certificates;
     write_line(arguments.text, number);
     append(subintervals, arguments.text);
   } catch (const CertificateLimitError& error) {
-    arguments.failure = words(keyword_of(kind), number) + ": " + error.what();
+    arguments.failure = words(record_of(kind).keyword, number) + ": " + error.what();
   }
 
   static void append(const std::vector<Subinterval>& subintervals, std::string& text) {
@@ -289,7 +292,7 @@ class StepProver : private ProofWriter {
     ++arguments.certificates;
     write_line(text, a, b);
     try {
-      Motion motion = scale_uniformly(fast::Step::kind_of(pair.kind),
+      Motion motion = scale_uniformly(decided_as(pair.kind),
                                       step_.query_of(pair.kind, pair.numbers), separation);
       // At distance 0 both norms mean the same, and l2 has fewer features.
       if (sgn(motion.distance) == 0) motion.norm = Norm::l2;

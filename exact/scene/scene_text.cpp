@@ -59,10 +59,10 @@ ListedScene::ListedScene(fast::Mesh given, fast::CollisionGroups given_rules,
 }
 
 void ListedScene::require_within_limit(std::size_t vertices) const {
-  const std::size_t items = vertices + mesh.faces.size() + bare_edges.size() + mesh.points.size() +
-                            rules.of_vertices.size() + rules.apart.size() + rules.radii.size() +
-                            rules.separations.size() + mesh.tetrahedra.size() +
-                            mesh.plane_triangles.size();
+  std::size_t items = vertices + mesh.faces.size() + bare_edges.size() + mesh.points.size() +
+                      rules.of_vertices.size() + rules.apart.size() + rules.radii.size() +
+                      rules.separations.size();
+  for (const CellKind kind : cell_kinds) items += mesh.count_of(kind);
   if (items <= scene_item_limit) return;
   throw CertificateLimitError("the scene has " +
                               words(items, "items, more than", scene_item_limit));
@@ -93,12 +93,12 @@ void ProofWriter::put(std::string_view text) {
   }
 }
 
-void ProofWriter::expect_arguments(std::size_t pairs, std::size_t elements) {
+void ProofWriter::expect_arguments(std::size_t pairs, std::size_t cells) {
   if (pairs > scene_argument_limit) {
     throw CertificateLimitError(
         words(pairs, "pairs need an argument, more than", scene_argument_limit));
   }
-  expected_ = pairs + elements;
+  expected_ = pairs + cells;
 }
 
 void ProofWriter::write_arguments(std::size_t count,

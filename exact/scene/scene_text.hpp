@@ -23,12 +23,6 @@ namespace touchstone::exact {
 inline constexpr std::array<std::string_view, 4> step_pair_kinds{"vertex_face", "edge_edge",
                                                                  "vertex_edge", "vertex_vertex"};
 
-/// The kinds of elements, and the keywords of their lists, which are left out where they are empty.
-inline constexpr std::array<std::string_view, 2> step_element_kinds{"tetrahedron",
-                                                                    "plane_triangle"};
-inline constexpr std::array<std::string_view, 2> step_element_lists{"tetrahedra",
-                                                                    "plane_triangles"};
-
 /// Appends words and integers with blanks between them, and the end of the line.
 template <class... Words>
 void write_line(std::string& text, const Words&... all) {
@@ -88,7 +82,7 @@ struct ListedScene {
   fast::CollisionGroups rules;
 };
 
-/// The arguments of some pairs or elements.
+/// The arguments of some pairs or cells.
 struct Arguments {
   std::string text;
   std::uint64_t directions = 0;    ///< pairs with a direction or a plane
@@ -113,7 +107,7 @@ class ProofWriter {
   void put(std::string_view text);
   /// Says how many arguments will be written.
   /// \throws CertificateLimitError if the checker does not take those of so many pairs.
-  void expect_arguments(std::size_t pairs, std::size_t elements);
+  void expect_arguments(std::size_t pairs, std::size_t cells);
   /// Writes what argue(i, arguments) adds for each i < count, on several threads; nothing behind a
   /// failure.
   void write_arguments(std::size_t count,

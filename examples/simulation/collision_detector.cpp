@@ -62,7 +62,7 @@ void CollisionDetector::record(const fast::Step& step) {
     const std::size_t count = std::min(pairs.size(), options_.record_limit);
     for (std::size_t i = 0; i < count; ++i) {
       const fast::IndexPair& pair = pairs[i * pairs.size() / count];
-      options_.recorder->add(fast::Step::kind_of(kind), step.query_of(kind, pair));
+      options_.recorder->add(decided_as(kind), step.query_of(kind, pair));
     }
   }
 }
@@ -75,8 +75,8 @@ std::vector<CollisionDetector::Impact> CollisionDetector::impacts(const fast::St
     for (const fast::IndexPair& pair : pairs) queries.push_back(step.query_of(kind, pair));
     std::vector<fast::Answer> answers(queries.size());
     statistics_.candidates += queries.size();
-    (void)solver_->solve(
-        {.queries = {fast::Step::kind_of(kind), queries}, .separation = separation}, answers);
+    (void)solver_->solve({.queries = {decided_as(kind), queries}, .separation = separation},
+                         answers);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       if (answers[i].verdict == fast::Verdict::no) continue;
       if (options_.missed_one_in != 0 && hash(queries[i]) % options_.missed_one_in == 0) {

@@ -53,7 +53,7 @@ struct DetectorStatistics {
 };
 
 /// Pairs by kind, in order.
-using Candidates = std::map<fast::PairKind, std::vector<fast::IndexPair>>;
+using Candidates = std::map<ContactKind, std::vector<fast::IndexPair>>;
 
 [[nodiscard]] Candidates candidates_of(const fast::Step& step);
 
@@ -74,7 +74,7 @@ class CollisionDetector {
  private:
   /// A pair with its time of impact according to the method.
   struct Impact {
-    fast::PairKind kind;
+    ContactKind kind;
     fast::IndexPair pair;
     double toi;
   };

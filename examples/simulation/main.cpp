@@ -76,7 +76,7 @@ nlohmann::json json_of(const Arguments& arguments, const Simulator& simulator,
       {"seconds", {{"total", run.seconds}, {"detection", detection.seconds}}},
   };
   if (const Recorder* recorder = arguments.detector.recorder; recorder != nullptr) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
       result["recorded"][std::string(to_string(kind))] = {
           {"queries", recorder->queries(kind)}, {"collisions", recorder->collisions(kind)}};
     }
@@ -124,7 +124,7 @@ std::vector<std::string> method_names() {
   std::vector<std::string> names;
   for (std::string& name : verify::solvers::all_names()) {
     const fast::MethodInfo* const info = verify::solvers::find_info(name);
-    if (info == nullptr || info->terms.answers(QueryShape{})) names.push_back(std::move(name));
+    if (info == nullptr || info->terms.answers(AnyShape{})) names.push_back(std::move(name));
   }
   return names;
 }

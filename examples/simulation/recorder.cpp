@@ -21,11 +21,11 @@ Recorder::File::File(const fs::path& folder, const std::string& name)
 }
 
 Recorder::Recorder(const fs::path& folder, const std::string& name)
-    : files_{{{folder / to_string(Kind::vertex_face), name},
-              {folder / to_string(Kind::edge_edge), name}}} {}
+    : files_{{{folder / to_string(ContactKind::vertex_face), name},
+              {folder / to_string(ContactKind::edge_edge), name}}} {}
 
-void Recorder::add(Kind kind, const Query& query) {
-  File& file = files_[kind == Kind::edge_edge ? 1 : 0];
+void Recorder::add(ContactKind kind, const Query& query) {
+  File& file = files_[kind == ContactKind::edge_edge ? 1 : 0];
   const bool collides = exact::decide(kind, query).collides();
   file.npy.write(query);
   file.labels.write(file.queries++ == 0 ? "" : ",");

@@ -21,13 +21,13 @@ class Recorder {
   /// \throws verify::io::DatasetError if no file can be created there.
   Recorder(const std::filesystem::path& folder, const std::string& name);
 
-  void add(Kind kind, const Query& query);
+  void add(ContactKind kind, const Query& query);
 
   /// Gives the files their names. \throws verify::io::DatasetError if they cannot be written.
   void close();
 
-  [[nodiscard]] std::uint64_t queries(Kind kind) const { return file(kind).queries; }
-  [[nodiscard]] std::uint64_t collisions(Kind kind) const { return file(kind).collisions; }
+  [[nodiscard]] std::uint64_t queries(ContactKind kind) const { return file(kind).queries; }
+  [[nodiscard]] std::uint64_t collisions(ContactKind kind) const { return file(kind).collisions; }
 
  private:
   /// The queries of one kind.
@@ -39,8 +39,8 @@ class Recorder {
     std::uint64_t queries = 0, collisions = 0;
   };
 
-  [[nodiscard]] const File& file(Kind kind) const {
-    return files_[kind == Kind::edge_edge ? 1 : 0];
+  [[nodiscard]] const File& file(ContactKind kind) const {
+    return files_[kind == ContactKind::edge_edge ? 1 : 0];
   }
 
   std::array<File, 2> files_;

@@ -33,7 +33,7 @@ struct ContactWeights {
 ContactWeights weights_of(const fast::Step& step, const fast::ActiveContact& contact) {
   const double u = contact.u, v = contact.v;
   ContactWeights result{step.vertices_of(contact.kind, contact.pair), {}};
-  if (contact.kind == fast::PairKind::edge_edge) {
+  if (contact.kind == ContactKind::edge_edge) {
     result.weights = {1.0 - u, u, v - 1.0, -v};
   } else {
     result.weights = {1.0, u + v - 1.0, -u, -v};
@@ -241,7 +241,7 @@ VectorXd Simulator::next_with_constraints(const Frame& frame) {
   const double eta = scene_.activation_distance;
   VectorXd there = unconstrained;
   Constraints constraints;
-  std::set<std::pair<fast::PairKind, fast::IndexPair>> known;
+  std::set<std::pair<ContactKind, fast::IndexPair>> known;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     const fast::Step step = world_.step(x_, there);
     const Index before = constraints.size();

@@ -34,7 +34,8 @@ CertifiedResult result_of(const std::optional<ExactImpact>& impact) {
           .v = impact->v};
 }
 
-CertifiedResult decided_exactly(Kind kind, const Query& query, const CertifiedOptions& options) {
+CertifiedResult decided_exactly(ContactKind kind, const Query& query,
+                                const CertifiedOptions& options) {
   if (!is_finite(query)) return {.verdict = Verdict::error, .is_exact = true};
   return result_of(
       decide_exactly(kind, query, options.separation, options.toi_tolerance, options.t_max));
@@ -63,37 +64,6 @@ std::optional<CertifiedResult> result_of(const KernelImpact& impact,
                          .toi_upper = impact.toi_upper,
                          .u = impact.u,
                          .v = impact.v};
-}
-
-void decide_elements(KernelInput block, double t_limit, const CertifiedOptions& options,
-                     const CertifiedKernel& kernel,
-                     const std::function<Query(std::size_t)>& tetrahedron,
-                     const std::function<void(std::size_t, const CertifiedResult&)>& report) {
-  const KernelOutput& output = run_kernel(block, t_limit, options, kernel, tetrahedron);
-  for (std::size_t i = 0; i < output.one_sided.count; ++i) {
-    report(output.one_sided.items[i],
-           {.verdict = Verdict::yes, .start = -1, .toi_lower = 0.0, .toi_upper = 0.0});
-  }
-  report_contacts(
-      output, options,
-      [&](std::size_t index) {
-        const Query element = tetrahedron(index);
-        CertifiedResult result{.is_exact = true};
-        if (!is_finite(element)) return result;
-        const ExactInversion found =
-            decide_inversion_exactly(element, options.t_max, block.kept_volume);
-        result.verdict = found.inverts ? Verdict::yes : Verdict::no;
-        result.start = static_cast<std::int8_t>(found.start);
-        if (!found.inverts) return result;
-        result.toi_lower = found.toi_lower;
-        result.toi_upper = found.toi_upper;
-        return result;
-      },
-      [&](std::size_t index, CertifiedResult result) {
-        if (!result.is_exact) result.start = 1;
-        result.u = result.v = no_number;
-        report(index, result);
-      });
 }
 
 double limit_after(double toi_upper, double tolerance) {

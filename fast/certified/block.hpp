@@ -27,8 +27,8 @@ void require_valid(const CertifiedOptions& options);
 /// The result of an exact decision.
 [[nodiscard]] CertifiedResult result_of(const std::optional<ExactImpact>& impact);
 
-/// The result of the exact stage, of contact.
-[[nodiscard]] CertifiedResult decided_exactly(Kind kind, const Query& query,
+/// The result of the exact stage.
+[[nodiscard]] CertifiedResult decided_exactly(ContactKind kind, const Query& query,
                                               const CertifiedOptions& options);
 [[nodiscard]] CertifiedResult decided_exactly(const Queries& queries, std::size_t i,
                                               const CertifiedOptions& options);
@@ -85,31 +85,28 @@ void report_contacts(const KernelOutput& output, const CertifiedOptions& options
   return output;
 }
 
-/// Runs the kernel on a block, ignoring contacts, or inversions of elements, after t_limit.
-/// \pre strict floating point. \param query_of(index) a query of the block, a tetrahedron of
-/// elements
+/// Runs the kernel on a block, ignoring contacts after t_limit.
+/// \pre strict floating point. \param query_of(index) a query of the block
 template <class QueryOf>
 KernelOutput& run_kernel(KernelInput& block, double t_limit, const CertifiedOptions& options,
                          const CertifiedKernel& kernel, const QueryOf& query_of) {
   KernelOutput& output = block_output();
-  const bool is_of_elements = is_element(block.kind);
-  KernelFunction& stages = is_of_elements ? *kernel.invert : *kernel.decide;
   block.toi_tolerance = std::max(options.toi_tolerance, least_kernel_tolerance);
   block.t_limit = t_limit;
-  if (!is_of_elements) block.separation = options.separation;
-  stages(block, output);
+  block.separation = options.separation;
+  kernel.decide(block, output);
   if (output.undecided.count > 0) {
     thread_local std::vector<Query> undecided;
     undecided.clear();
     for (std::size_t i = 0; i < output.undecided.count; ++i) {
       undecided.push_back(query_of(output.undecided.items[i]));
     }
-    decide_rescaled(block, stages, undecided, output);
+    decide_rescaled(block, *kernel.decide, undecided, output);
   }
   return output;
 }
 
-/// Decides a block of queries about contact and passes on the results of those that may have one:
+/// Decides a block of queries and passes on the results of those that may have one:
 /// report(index, result). \pre as above
 template <class QueryOf, class Report>
 const KernelOutput& decide_block(KernelInput block, double t_limit, const CertifiedOptions& options,
@@ -122,16 +119,5 @@ const KernelOutput& decide_block(KernelInput block, double t_limit, const Certif
       report);
   return output;
 }
-
-/// The result of elements that decide_elements reports none of.
-inline constexpr CertifiedResult free_of_inversion{.verdict = Verdict::no, .start = 1};
-
-/// The same of elements, which invert when no more than `block.kept_volume` of their volume is
-/// left. Inversions after t_limit may be left out; the results of the others do not depend on it.
-/// \param tetrahedron(index) an element of the block
-void decide_elements(KernelInput block, double t_limit, const CertifiedOptions& options,
-                     const CertifiedKernel& kernel,
-                     const std::function<Query(std::size_t)>& tetrahedron,
-                     const std::function<void(std::size_t, const CertifiedResult&)>& report);
 
 }  // namespace touchstone::fast

@@ -18,7 +18,7 @@ class Weights {
   Weights(const Queries& queries, std::size_t i)
       : queries_(queries),
         row_(queries.row(i)),
-        second_(queries.kind == Kind::vertex_face ? 1 : 2) {}
+        second_(queries.kind == ContactKind::vertex_face ? 1 : 2) {}
 
   /// True if both primitives have the same weights, or none. \pre are_alike_in_primitives()
   [[nodiscard]] bool are_alike() const { return are_equal(0, second_); }
@@ -60,7 +60,7 @@ class Weights {
 
 // ---- Blocks -------------------------------------------------------------------------------------
 
-using Indices = KernelOutput::List<std::uint32_t>;
+using Indices = KernelList<std::uint32_t>;
 
 void append(Indices& list, std::uint32_t index) { list.items[list.count++] = index; }
 

@@ -1,8 +1,9 @@
 #pragma once
 
 /// \file
-/// The stages of the certified solver that run in floating point, for blocks of queries, one
-/// implementation for each instruction set. (The algorithm: kernel_on_lanes.hpp.)
+/// The stages of the certified solver that run in floating point, for blocks of queries or of
+/// cells, one implementation for each instruction set. (The algorithms: kernel_on_lanes.hpp,
+/// fast/cells/stages.hpp.)
 
 #include <array>
 #include <cstddef>
@@ -11,6 +12,7 @@
 
 #include "fast/certified/fixed_point_vertices.hpp"
 #include "fast/platform/instruction_set.hpp"
+#include "touchstone/cell.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 
@@ -22,7 +24,7 @@ inline constexpr std::size_t kernel_block = 1024;
 
 /// A block of queries: from an array, or from pairs of indices.
 struct KernelInput {
-  Kind kind = Kind::vertex_face;
+  ContactKind kind = ContactKind::vertex_face;
   std::size_t count = 0;  ///< at most kernel_block
   /// The first query of the block, for an array.
   const Query* queries = nullptr;
@@ -31,9 +33,6 @@ struct KernelInput {
   const Edge* edges = nullptr;
   const Face* faces = nullptr;
   const IndexPair* pairs = nullptr;
-  /// A block of elements (CertifiedKernel::invert) is one of queries or, with vertices, of
-  /// tetrahedra or faces, which are triangles in the plane. Here its first ones.
-  const std::array<std::int32_t, 4>* tetrahedra = nullptr;
   /// True if coordinates are known to be finite and few queries are separated on an axis. Then the
   /// first stage is omitted.
   bool axis_is_done = false;
@@ -47,7 +46,21 @@ struct KernelInput {
   double toi_tolerance = 1e-12;
   /// Contacts after this time may or may not be found.
   double t_limit = 1.0;
-  /// Elements invert when no more than this part of their volume at t=0 is left, in [0,1).
+};
+
+/// A block of cells: from an array, or of a mesh.
+struct CellInput {
+  CellKind kind = CellKind::tetrahedron;
+  std::size_t count = 0;  ///< at most kernel_block
+  /// The first cell of the block, for an array.
+  const Query* queries = nullptr;
+  /// All vertices, and the vertices of the first cell of the block, for a mesh.
+  const MovingVertex* vertices = nullptr;
+  const std::int32_t* corners = nullptr;
+  /// As in KernelInput.
+  double toi_tolerance = 1e-12;
+  double t_limit = 1.0;
+  /// Cells invert when no more than this part of their volume at t=0 is left, in [0,1).
   double kept_volume = 0.0;
 };
 
@@ -64,19 +77,35 @@ struct KernelImpact {
   double v;
 };
 
+/// The first time of a cell: its volume is positive up to toi_lower, and not so up to toi_upper.
+struct KernelInversion {
+  std::uint32_t index;  ///< in the block
+  double toi_lower;
+  double toi_upper;
+};
+
+/// Items of a block.
+template <class T>
+struct KernelList {
+  std::size_t count = 0;
+  std::array<T, kernel_block> items;
+};
+
 /// The results of a block. Queries that are in no list are separated on an axis, or have no contact
 /// up to t_limit in single precision.
 struct KernelOutput {
-  template <class T>
-  struct List {
-    std::size_t count = 0;
-    std::array<T, kernel_block> items;
-  };
-  List<std::uint32_t> separated_in_direction;
-  List<std::uint32_t> one_sided;  ///< the determinant keeps its sign
-  List<std::uint32_t> rejected;   ///< by bisection, no contact up to t_limit
-  List<KernelImpact> impacts;
-  List<std::uint32_t> undecided;  ///< for the exact stage
+  KernelList<std::uint32_t> separated_in_direction;
+  KernelList<std::uint32_t> one_sided;  ///< the determinant keeps its sign
+  KernelList<std::uint32_t> rejected;   ///< by bisection, no contact up to t_limit
+  KernelList<KernelImpact> impacts;
+  KernelList<std::uint32_t> undecided;  ///< for the exact stage
+};
+
+/// The results of a block of cells. Those in no list keep their volume up to t_limit.
+struct CellOutput {
+  KernelList<std::uint32_t> inverted;      ///< at t=0
+  KernelList<KernelInversion> inversions;  ///< of cells with a positive volume at t=0
+  KernelList<std::uint32_t> undecided;     ///< for integers
 };
 
 namespace curved {
@@ -102,16 +131,17 @@ struct Block : Queries {
 
 }  // namespace curved
 
-/// A function that decides a block of queries or elements.
+/// A function that decides a block of queries, or of cells.
 using KernelFunction = void(const KernelInput& input, KernelOutput& output);
+using CellFunction = void(const CellInput& input, CellOutput& output);
 
 /// The functions on curves of one instruction set (fast/certified/curves/stages.hpp).
 struct CurvedKernel {
   InstructionSet instructions;
   /// Lists the queries that no axis separates.
-  void (*axis)(const curved::Block& block, KernelOutput::List<std::uint32_t>& open);
+  void (*axis)(const curved::Block& block, KernelList<std::uint32_t>& open);
   /// Decides the queries of a list, with control polygons of one form; appends to the output.
-  void (*search)(const curved::Block& block, const KernelOutput::List<std::uint32_t>& queries,
+  void (*search)(const curved::Block& block, const KernelList<std::uint32_t>& queries,
                  curved::Denominators denominators, KernelOutput& output);
   double (*product_then_sum)(double a, double b, double c);
 };
@@ -124,10 +154,7 @@ extern const CurvedKernel scalar_curved_kernel, avx2_curved_kernel, avx512_curve
 struct CertifiedKernel {
   InstructionSet instructions;
   KernelFunction* decide;
-  /// Inversions of elements (fast/certified/stages/inversion.hpp). Elements that are in no list,
-  /// and the rejected ones, do not invert up to t_limit; those in `one_sided` are inverted at t=0;
-  /// impacts are the first times of those with a positive volume at t=0.
-  KernelFunction* invert;
+  CellFunction* invert;
   const CurvedKernel* curves;
   /// a b + c on its lanes: certified_kernels() uses it, and that of the curves, to check that
   /// products are rounded before they are added.

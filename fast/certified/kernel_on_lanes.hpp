@@ -34,13 +34,14 @@
 /// Pairs of a mesh may come with their vertices in fixed point. Then stages/single_precision.hpp,
 /// with the theorems of 2. to 4., takes the place of 2. and 3.
 ///
-/// Inversions of elements are decided by 3., 6. and 7. alone (stages/inversion.hpp).
+/// Inversions of cells are decided by 3., 6. and 7. alone (fast/cells/stages.hpp).
 ///
 /// The stages for curves are kernels of their own (fast/certified/curves/stages.hpp).
 ///
 /// Queries that no stage decides remain undecided, as do those with coordinates that are not finite
 /// or too large for the bounds.
 
+#include "fast/cells/stages.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/certified/stages/axis.hpp"
 #include "fast/certified/stages/bisection.hpp"
@@ -48,7 +49,6 @@
 #include "fast/certified/stages/crossing.hpp"
 #include "fast/certified/stages/determinant.hpp"
 #include "fast/certified/stages/distance_enclosure.hpp"
-#include "fast/certified/stages/inversion.hpp"
 #include "fast/certified/stages/lanes.hpp"
 #include "fast/certified/stages/only_zero.hpp"
 #include "fast/certified/stages/orientation.hpp"
@@ -58,7 +58,7 @@
 namespace touchstone::fast::kernel {
 
 /// \tparam First the source for the first stages: of one query, or Source
-template <class Lanes, bool separated, Kind kind, class Source, class First>
+template <class Lanes, bool separated, ContactKind kind, class Source, class First>
 void run_stages(const KernelInput& input, KernelOutput& output) {
   output.separated_in_direction.count = output.one_sided.count = 0;
   output.rejected.count = output.impacts.count = output.undecided.count = 0;
@@ -85,7 +85,7 @@ void run_stages(const KernelInput& input, KernelOutput& output) {
                                               output);
   Moving<Lanes, kind> moving;
   load_moving<Lanes, separated, kind, Source>(input, undecided, moving);
-  Bisection<Lanes, kind>(input, moving, contacts, output.rejected, hopeless).run();
+  Bisection<Lanes, kind>(input.t_limit, moving, contacts, output.rejected, hopeless).run();
   Refinement<Lanes, separated, kind, Source>::run(input, contacts, hopeless, output);
   if constexpr (separated) {
     with_norm(input.separation.norm, [&]<Norm norm>() {
@@ -94,7 +94,7 @@ void run_stages(const KernelInput& input, KernelOutput& output) {
   }
 }
 
-template <class Lanes, bool separated, Kind kind>
+template <class Lanes, bool separated, ContactKind kind>
 void decide_kind(const KernelInput& input, KernelOutput& output) {
   using Pairs = FromPairs<Lanes, kind>;
   if (input.queries == nullptr) {
@@ -108,10 +108,10 @@ void decide_kind(const KernelInput& input, KernelOutput& output) {
 
 template <class Lanes, bool separated>
 void decide_separation(const KernelInput& input, KernelOutput& output) {
-  if (input.kind == Kind::vertex_face) {
-    decide_kind<Lanes, separated, Kind::vertex_face>(input, output);
+  if (input.kind == ContactKind::vertex_face) {
+    decide_kind<Lanes, separated, ContactKind::vertex_face>(input, output);
   } else {
-    decide_kind<Lanes, separated, Kind::edge_edge>(input, output);
+    decide_kind<Lanes, separated, ContactKind::edge_edge>(input, output);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 namespace touchstone::fast {
@@ -101,57 +102,93 @@ class Batches {
 };
 
 template <class T>
-void append(KernelOutput::List<T>& list, const T& item) {
+void append(KernelList<T>& list, const T& item) {
   list.items[list.count++] = item;
 }
 
-/// Runs the kernel on scaled queries and appends its results.
-void decide_batch(const Rescaled& some, KernelInput block, KernelFunction& function,
-                  KernelOutput& output) {
-  thread_local KernelOutput result;
-  block.count = some.queries.size();
-  block.queries = some.queries.data();
-  if (block.kind == Kind::plane_triangle) block.kind = Kind::tetrahedron;
+/// Moves the undecided queries that can be scaled into batches. \param queries the undecided ones
+Batches take_scaled(double of_block, std::span<const Query> queries,
+                    KernelList<std::uint32_t>& undecided) {
+  Batches batches;
+  undecided.count = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    // The list is written over: never more items than have been read.
+    const std::uint32_t number = undecided.items[i];
+    Query query = queries[i];
+    double distance = of_block;
+    const std::optional<Scale> exponents = scale_for(query, distance);
+    if (exponents && scale(query, *exponents) && scale(distance, exponents->front())) {
+      batches.add(distance, query, number);
+    } else {
+      append(undecided, number);
+    }
+  }
+  return batches;
+}
+
+/// Appends items about scaled queries, as items about those of the block with these numbers.
+template <class T>
+void append(KernelList<T>& list, const KernelList<T>& from,
+            const std::vector<std::uint32_t>& numbers) {
+  for (std::size_t i = 0; i < from.count; ++i) {
+    T item = from.items[i];
+    if constexpr (std::is_same_v<T, std::uint32_t>) {
+      item = numbers[item];
+    } else {
+      item.index = numbers[item.index];
+    }
+    append(list, item);
+  }
+}
+
+void append(KernelOutput& output, const KernelOutput& from,
+            const std::vector<std::uint32_t>& numbers) {
+  append(output.separated_in_direction, from.separated_in_direction, numbers);
+  append(output.one_sided, from.one_sided, numbers);
+  append(output.rejected, from.rejected, numbers);
+  append(output.impacts, from.impacts, numbers);
+  append(output.undecided, from.undecided, numbers);
+}
+void append(CellOutput& output, const CellOutput& from, const std::vector<std::uint32_t>& numbers) {
+  append(output.inverted, from.inverted, numbers);
+  append(output.inversions, from.inversions, numbers);
+  append(output.undecided, from.undecided, numbers);
+}
+
+/// Makes a block one of scaled queries.
+void set_scaled(KernelInput& block, double distance) {
   block.axis_is_done = false;
   block.rounded = nullptr;
-  block.separation.distance = some.distance;
-  function(block, result);
-  const auto move = [&](auto list) {
-    const auto& from = result.*list;
-    for (std::size_t i = 0; i < from.count; ++i) {
-      append(output.*list, some.numbers[from.items[i]]);
-    }
-  };
-  move(&KernelOutput::separated_in_direction);
-  move(&KernelOutput::one_sided);
-  move(&KernelOutput::rejected);
-  move(&KernelOutput::undecided);
-  for (std::size_t i = 0; i < result.impacts.count; ++i) {
-    KernelImpact impact = result.impacts.items[i];
-    impact.index = some.numbers[impact.index];
-    append(output.impacts, impact);
+  block.separation.distance = distance;
+}
+void set_scaled(CellInput& block, double /*distance*/) { block.kind = CellKind::tetrahedron; }
+
+/// Runs the kernel on the undecided queries that can be scaled, and appends its results.
+template <class Input, class Output>
+void decide(const Input& block, double distance, void (&function)(const Input&, Output&),
+            std::span<const Query> queries, Output& output) {
+  thread_local Output result;
+  const Batches batches = take_scaled(distance, queries, output.undecided);
+  for (const Rescaled& some : batches.all()) {
+    Input scaled = block;
+    scaled.count = some.queries.size();
+    scaled.queries = some.queries.data();
+    set_scaled(scaled, some.distance);
+    function(scaled, result);
+    append(output, result, some.numbers);
   }
 }
 
 }  // namespace
 
-void decide_rescaled(const KernelInput& block, KernelFunction& decide,
+void decide_rescaled(const KernelInput& block, KernelFunction& function,
                      std::span<const Query> queries, KernelOutput& output) {
-  Batches batches;
-  output.undecided.count = 0;
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    // The list is written over: never more items than have been read.
-    const std::uint32_t number = output.undecided.items[i];
-    Query query = queries[i];
-    double distance = block.separation.distance;
-    const std::optional<Scale> exponents = scale_for(query, distance);
-    if (exponents && scale(query, *exponents) && scale(distance, exponents->front())) {
-      batches.add(distance, query, number);
-    } else {
-      append(output.undecided, number);
-    }
-  }
-  for (const Rescaled& some : batches.all()) decide_batch(some, block, decide, output);
+  decide(block, block.separation.distance, function, queries, output);
+}
+
+void invert_rescaled(const CellInput& block, CellFunction& function, std::span<const Query> queries,
+                     CellOutput& output) {
+  decide(block, 0.0, function, queries, output);
 }
 
 }  // namespace touchstone::fast

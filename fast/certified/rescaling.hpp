@@ -24,8 +24,12 @@ namespace touchstone::fast {
 
 /// Moves queries of unusual size that the kernel can decide from the undecided ones of the output
 /// to other lists. \param queries the undecided ones, in their order
-/// \param decide the kernel's function that left them undecided
-void decide_rescaled(const KernelInput& block, KernelFunction& decide,
+/// \param function the kernel's function that left them undecided
+void decide_rescaled(const KernelInput& block, KernelFunction& function,
                      std::span<const Query> queries, KernelOutput& output);
+
+/// The same of cells. \param queries the undecided ones, as tetrahedra
+void invert_rescaled(const CellInput& block, CellFunction& function, std::span<const Query> queries,
+                     CellOutput& output);
 
 }  // namespace touchstone::fast

@@ -174,7 +174,7 @@ int scaling_of(const Query& query, const TimeEnclosure& time) {
 
 class MovingPair {
  public:
-  MovingPair(Kind kind, const Query& query, const TimeEnclosure& time)
+  MovingPair(ContactKind kind, const Query& query, const TimeEnclosure& time)
       : query_(query),
         exponent_(scaling_of(query, time)),
         time_(time),
@@ -273,13 +273,13 @@ struct Errors {
 
 /// The parameters with those on the boundary but for rounding moved onto it, where the bounds are
 /// best.
-Parameters on_boundary(Kind kind, Parameters x) {
+Parameters on_boundary(ContactKind kind, Parameters x) {
   constexpr double near = 0x1p-45;
   for (double* const one : {&x.u, &x.v}) {
     if (*one < near) *one = 0.0;
     if (*one > 1.0 - near) *one = 1.0;
   }
-  if (kind == Kind::vertex_face && 1.0 - x.u - x.v < near) {
+  if (kind == ContactKind::vertex_face && 1.0 - x.u - x.v < near) {
     x.v = 1.0 - x.u;
     x.u = 1.0 - x.v;  // now both sum up to 1 exactly
   }
@@ -289,7 +289,7 @@ Parameters on_boundary(Kind kind, Parameters x) {
 /// The polygon at the time, and F at the given parameters.
 class ContactPolygon {
  public:
-  ContactPolygon(Kind kind, const MovingPair& pair, const Parameters& at)
+  ContactPolygon(ContactKind kind, const MovingPair& pair, const Parameters& at)
       : kind_(kind),
         pair_(pair),
         at_(at),
@@ -351,7 +351,7 @@ class ContactPolygon {
     const auto [u, v] = at_;
     if (!(u > du && v > dv)) return false;
     constexpr double rounding = 0x1p-50;
-    return kind_ == Kind::vertex_face
+    return kind_ == ContactKind::vertex_face
                ? 1.0 - u - v > above * (du + dv) + rounding
                : 1.0 - u > above * du + rounding && 1.0 - v > above * dv + rounding;
   }
@@ -452,7 +452,7 @@ class ContactPolygon {
     errors.take(has_p ? Errors{bound, along, across} : Errors{bound, across, along});
   }
 
-  Kind kind_;
+  ContactKind kind_;
   const MovingPair& pair_;
   Parameters at_;
   Normalised p_, q_, f_;
@@ -563,7 +563,7 @@ Normal normal_of_apart(const MovingPair& pair, const ContactPolygon& polygon, co
 
 }  // namespace
 
-ContactEnclosure enclose_contact(Kind kind, const Query& query, const TimeEnclosure& time,
+ContactEnclosure enclose_contact(ContactKind kind, const Query& query, const TimeEnclosure& time,
                                  const Parameters& approximate, bool is_touching) {
   const Parameters at = on_boundary(kind, exact_stage::inside_domain(kind, approximate));
   const MovingPair pair(kind, query, time);
@@ -571,7 +571,7 @@ ContactEnclosure enclose_contact(Kind kind, const Query& query, const TimeEnclos
   const Errors errors = is_touching ? polygon.touching() : polygon.apart();
   const Normal normal = is_touching ? normal_of_touching(pair, polygon, at, errors)
                                     : normal_of_apart(pair, polygon, at, errors);
-  const bool is_face = kind == Kind::vertex_face;
+  const bool is_face = kind == ContactKind::vertex_face;
   const Balls along_p = times(Ball(at.u), pair.p.now), along_q = times(Ball(at.v), pair.q.now);
   const Balls first = is_face ? pair.a : minus(pair.a, along_p);
   const Balls second = plus(pair.b, is_face ? plus(along_p, along_q) : along_q);

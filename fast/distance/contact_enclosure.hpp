@@ -51,7 +51,7 @@ struct ContactEnclosure {
 /// \param approximate parameters of the nearest points
 /// \param is_touching true if the primitives have a common point at τ
 /// \pre all coordinates are finite; 0 ≤ time.lower ≤ time.upper ≤ 1; strict floating point.
-[[nodiscard]] ContactEnclosure enclose_contact(Kind kind, const Query& query,
+[[nodiscard]] ContactEnclosure enclose_contact(ContactKind kind, const Query& query,
                                                const TimeEnclosure& time,
                                                const exact_stage::Parameters& approximate,
                                                bool is_touching);

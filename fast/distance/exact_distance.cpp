@@ -43,7 +43,7 @@ struct ScaledPolygon {
   long unit = 0;
 };
 
-ScaledPolygon polygon_at(Kind kind, const Query& query, double t) {
+ScaledPolygon polygon_at(ContactKind kind, const Query& query, double t) {
   int lowest = std::numeric_limits<int>::max();
   for (const double x : query.coordinates) {
     const BinaryFraction fraction = exact_stage::odd_fraction(x);
@@ -123,7 +123,7 @@ double approximate_root(const Fraction& fraction, long unit, int degree) {
 
 }  // namespace
 
-Distance exact_distance(Kind kind, const Query& query, double t, Norm norm) {
+Distance exact_distance(ContactKind kind, const Query& query, double t, Norm norm) {
   const ScaledPolygon scaled = polygon_at(kind, query, t);
   const int degree = norm == Norm::l2 ? 2 : 1;
   const Fraction fraction =

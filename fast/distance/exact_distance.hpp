@@ -14,6 +14,6 @@ namespace touchstone::fast {
 
 /// The same as `distance`.
 /// \pre Strict floating point; all coordinates are finite; 0 ≤ t ≤ 1.
-[[nodiscard]] Distance exact_distance(Kind kind, const Query& query, double t, Norm norm);
+[[nodiscard]] Distance exact_distance(ContactKind kind, const Query& query, double t, Norm norm);
 
 }  // namespace touchstone::fast

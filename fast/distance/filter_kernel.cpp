@@ -20,7 +20,7 @@ extern const DistanceKernel neon_distance_kernel;
 
 namespace {
 
-void filter_one_by_one(Kind kind, const Query* queries, std::size_t count, double t,
+void filter_one_by_one(ContactKind kind, const Query* queries, std::size_t count, double t,
                        Distance* results) {
   for (std::size_t i = 0; i < count; ++i) {
     results[i] = filtered_distance(kind, queries[i], t, Norm::l2).value_or(open_distance);

@@ -22,7 +22,8 @@ struct DistanceKernel {
   InstructionSet instructions;
   /// Answers query i in results[i], or leaves it open. \pre strict floating point; all coordinates
   /// are finite; 0 ≤ t ≤ 1.
-  void (*filter)(Kind kind, const Query* queries, std::size_t count, double t, Distance* results);
+  void (*filter)(ContactKind kind, const Query* queries, std::size_t count, double t,
+                 Distance* results);
   /// a b + c on its lanes, as CertifiedKernel.
   double (*product_then_sum)(double a, double b, double c);
 };

@@ -25,7 +25,7 @@
 
 namespace touchstone::fast::distance_filter {
 
-template <class Lanes, Kind kind>
+template <class Lanes, ContactKind kind>
 class Filter {
  public:
   static void run(const Query* queries, std::size_t count, double t, Distance* results) {
@@ -44,7 +44,7 @@ class Filter {
   using Numbers = std::array<double, Lanes::width>;
 
   static constexpr std::size_t width = Lanes::width;
-  static constexpr std::size_t corner_count = kind == Kind::vertex_face ? 3 : 4;
+  static constexpr std::size_t corner_count = kind == ContactKind::vertex_face ? 3 : 4;
 
   TOUCHSTONE_INLINE_CALLS static void answer(const Query* queries, std::size_t count, double t,
                                              Distance* results) {
@@ -96,7 +96,7 @@ class Filter {
       }
       return result;
     };
-    if (kind == Kind::edge_edge) return !same(0, 1) && !same(2, 3);
+    if (kind == ContactKind::edge_edge) return !same(0, 1) && !same(2, 3);
     return !same(1, 2) && !same(2, 3) && !same(3, 1);
   }
 
@@ -138,7 +138,7 @@ class Filter {
   }
 
   static constexpr std::array<Corner, corner_count> corners_of_kind() {
-    if constexpr (kind == Kind::vertex_face) {
+    if constexpr (kind == ContactKind::vertex_face) {
       return vertex_face_corners;
     } else {
       return edge_edge_corners;
@@ -280,11 +280,12 @@ class Filter {
 };
 
 template <class Lanes>
-void filter(Kind kind, const Query* queries, std::size_t count, double t, Distance* results) {
-  if (kind == Kind::vertex_face) {
-    Filter<Lanes, Kind::vertex_face>::run(queries, count, t, results);
+void filter(ContactKind kind, const Query* queries, std::size_t count, double t,
+            Distance* results) {
+  if (kind == ContactKind::vertex_face) {
+    Filter<Lanes, ContactKind::vertex_face>::run(queries, count, t, results);
   } else {
-    Filter<Lanes, Kind::edge_edge>::run(queries, count, t, results);
+    Filter<Lanes, ContactKind::edge_edge>::run(queries, count, t, results);
   }
 }
 

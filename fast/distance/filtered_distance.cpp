@@ -43,7 +43,7 @@ std::optional<int> scaling(const Query& query) {
 /// The exact product x · 2^exponent.
 double scaled(double x, int exponent) { return exponent == 0 ? x : std::ldexp(x, exponent); }
 
-BallPolygon polygon_at(Kind kind, const Query& query, double t, int exponent) {
+BallPolygon polygon_at(ContactKind kind, const Query& query, double t, int exponent) {
   const Ball weight_of_end(t), weight_of_start(filters::exact_difference(1.0, t));
   const auto at = [&](const Corner& corner, std::size_t axis) {
     const auto at_end = [&](std::size_t end) {
@@ -267,7 +267,8 @@ class CubeComparison {
 
 }  // namespace
 
-std::optional<Distance> filtered_distance(Kind kind, const Query& query, double t, Norm norm) {
+std::optional<Distance> filtered_distance(ContactKind kind, const Query& query, double t,
+                                          Norm norm) {
   const std::optional<int> exponent = scaling(query);
   if (!exponent) return std::nullopt;
   const BallPolygon p = polygon_at(kind, query, t, *exponent);

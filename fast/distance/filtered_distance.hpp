@@ -22,7 +22,7 @@ namespace touchstone::fast {
 /// The same as `distance`; empty if rounding, overflow or underflow leave it open: in L2 also if
 /// the distance is a double.
 /// \pre Strict floating point; all coordinates are finite; 0 ≤ t ≤ 1.
-[[nodiscard]] std::optional<Distance> filtered_distance(Kind kind, const Query& query, double t,
-                                                        Norm norm);
+[[nodiscard]] std::optional<Distance> filtered_distance(ContactKind kind, const Query& query,
+                                                        double t, Norm norm);
 
 }  // namespace touchstone::fast

@@ -61,10 +61,10 @@ double dual_size_of(const Vector& direction) {
 constexpr double u = 0x1p-53, least_size = 0x1p-400, greatest_size = 0x1p400;
 
 /// The polygon of a query, and a test of directions.
-template <Kind kind, Norm norm>
+template <ContactKind kind, Norm norm>
 class Polygon {
  public:
-  static constexpr auto count = kind == Kind::vertex_face ? std::size_t{3} : std::size_t{4};
+  static constexpr auto count = kind == ContactKind::vertex_face ? std::size_t{3} : std::size_t{4};
 
   explicit Polygon(const Query& query) {
     // NaN and infinity, which comparisons may miss, are in the total.
@@ -137,7 +137,7 @@ class Polygon {
 };
 
 /// Tries a cheap direction, then that of the nearest point of the sides, then the normal.
-template <Kind kind, Norm norm>
+template <ContactKind kind, Norm norm>
 bool keeps(const Query& query, double t_max, const KeptDistance& kept) {
   const Polygon<kind, norm> polygon(query);
   return polygon.keeps(polygon.sum_of_corners(), t_max, kept) ||
@@ -147,16 +147,18 @@ bool keeps(const Query& query, double t_max, const KeptDistance& kept) {
 
 }  // namespace
 
-bool keeps_distance(Kind kind, const Query& query, double t_max, const KeptDistance& kept) {
-  require_contact(kind);
+bool keeps_distance(ContactKind kind, const Query& query, double t_max, const KeptDistance& kept) {
+  if (decided_as(kind) != kind) {
+    return keeps_distance(decided_as(kind), decided_query(kind, query), t_max, kept);
+  }
   const StrictFloatingPoint strict;
   const bool is_l2 = kept.norm == Norm::l2;
-  if (kind == Kind::vertex_face) {
-    return is_l2 ? keeps<Kind::vertex_face, Norm::l2>(query, t_max, kept)
-                 : keeps<Kind::vertex_face, Norm::linf>(query, t_max, kept);
+  if (kind == ContactKind::vertex_face) {
+    return is_l2 ? keeps<ContactKind::vertex_face, Norm::l2>(query, t_max, kept)
+                 : keeps<ContactKind::vertex_face, Norm::linf>(query, t_max, kept);
   }
-  return is_l2 ? keeps<Kind::edge_edge, Norm::l2>(query, t_max, kept)
-               : keeps<Kind::edge_edge, Norm::linf>(query, t_max, kept);
+  return is_l2 ? keeps<ContactKind::edge_edge, Norm::l2>(query, t_max, kept)
+               : keeps<ContactKind::edge_edge, Norm::linf>(query, t_max, kept);
 }
 
 }  // namespace touchstone::fast

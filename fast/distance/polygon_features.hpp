@@ -47,7 +47,7 @@ struct CornerList {
   std::size_t count = 0;
 };
 
-[[nodiscard]] inline CornerList distinct_corners(Kind kind, const Query& query) {
+[[nodiscard]] inline CornerList distinct_corners(ContactKind kind, const Query& query) {
   const auto coordinates = [&](std::size_t point) {
     std::array<double, 6> result{};
     for (std::size_t i = 0; i < 6; ++i) result[i] = query.at(i / 3, point, i % 3);

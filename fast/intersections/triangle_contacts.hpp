@@ -47,9 +47,9 @@
 /// **Elements without an area.** A face whose vertices are on a line is the segment between its
 /// extreme vertices, or a point; its third vertex is no feature, but can be in S.
 ///
-/// **Kind.** With one contact, its features name the kind. With two, A ∩ B is a segment; it is
-/// inside an edge of A if the features of A in the contacts are of one edge, otherwise inside the
-/// face, and likewise of B. With three or more it is a polygon: the triangles are in one plane.
+/// **Kind.** With one contact, its features name the kind. With two, A ∩ B is a segment; it
+/// is inside an edge of A if the features of A in the contacts are of one edge, otherwise inside
+/// the face, and likewise of B. With three or more it is a polygon: the triangles are in one plane.
 
 #include <array>
 #include <bit>

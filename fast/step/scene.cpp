@@ -7,10 +7,10 @@
 #include <tuple>
 
 #include "fast/broad_phase/swept_box.hpp"
+#include "fast/cells/decision.hpp"
 #include "fast/kernels.hpp"
 #include "fast/platform/threads.hpp"
 #include "touchstone/broad_phase.hpp"
-#include "touchstone/element.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -31,20 +31,20 @@ std::shared_ptr<const SceneMesh> checked(std::shared_ptr<const SceneMesh> mesh,
   return mesh;
 }
 
-void require_volumes_on_lines(const Motion& vertices, const Mesh& mesh) {
-  if (mesh.tetrahedra.empty() && mesh.plane_triangles.empty()) return;
-  require_straight(vertices, "step: elements that invert");
+void require_cells_on_lines(const Motion& vertices, const Mesh& mesh) {
+  for (const CellKind kind : cell_kinds) {
+    if (mesh.count_of(kind) > 0) require_straight(vertices, "step: cells");
+  }
 }
 
 /// \throws as Step.
 Motion checked(Motion vertices, const Mesh& mesh) {
-  require_volumes_on_lines(vertices, mesh);
+  require_cells_on_lines(vertices, mesh);
   require_finite(vertices);
   require_in_range(vertices, mesh.edges);
   require_in_range(vertices, mesh.faces);
   require_in_range(vertices, mesh.points);
-  require_in_range(vertices, mesh.tetrahedra);
-  require_in_range(vertices, mesh.plane_triangles);
+  require_cells_in_range(vertices, mesh);
   return vertices;
 }
 
@@ -52,7 +52,7 @@ Motion checked(Motion vertices, const Scene& other) {
   if (vertices.size() != other.vertices().size()) {
     throw std::invalid_argument("step: there must be as many vertices as before");
   }
-  require_volumes_on_lines(vertices, other.mesh());
+  require_cells_on_lines(vertices, other.mesh());
   require_finite(vertices);
   return vertices;
 }
@@ -243,7 +243,7 @@ double t_end_of(double time) {
 }
 
 FloatBounds Scene::bounds_up_to(double end) const {
-  // Elements alone do not collide.
+  // Cells alone do not collide.
   if (mesh_->vertices.empty()) return FloatBounds(Motion(Eigen::MatrixX3d(), Eigen::MatrixX3d()));
   return FloatBounds(vertices_, end, certified_.separation.distance, mesh_->reaches);
 }
@@ -271,7 +271,7 @@ std::vector<SearchPart> Scene::parts(std::size_t most_groups) const {
     if (all.size() == 0) continue;
     const std::size_t groups = some.members().size();
     for (std::size_t first = 0; first < groups; first += most_groups) {
-      result.push_back({.kind = static_cast<PairKind>(kind),
+      result.push_back({.kind = static_cast<ContactKind>(kind),
                         .first = first,
                         .end = std::min(first + most_groups, groups)});
     }
@@ -281,7 +281,7 @@ std::vector<SearchPart> Scene::parts(std::size_t most_groups) const {
 
 PairRules Scene::rules_of(const PairRecord& record, Certainty certainty) const {
   PairRules rules{
-      .of_edges = record.query_kind == Kind::edge_edge, .certainty = certainty, .questions = this};
+      .of_edges = record.some == Sort::edges, .certainty = certainty, .questions = this};
   if (groups_->bodies) {
     rules.some_bodies = &(*groups_->bodies)[record.some];
     rules.all_bodies = &(*groups_->bodies)[record.all];
@@ -327,14 +327,15 @@ bool Scene::primitives_meet(const Primitive& a, const Primitive& b) const {
   return mesh_->bodies.meet(vertices(a), vertices(b));
 }
 
-// ---- Elements -----------------------------------------------------------------------------------
+// ---- Cells --------------------------------------------------------------------------------------
 
 void Scene::find_inversions(const CertifiedOptions& options, double kept_volume,
                             const std::function<double()>& limit,
                             const std::function<void(const StepInversion&)>& report) const {
-  const std::span tetrahedra(mesh().tetrahedra);
-  const std::span triangles(mesh().plane_triangles);
-  const auto find = [&](Kind kind, std::size_t size) {
+  const InversionOptions of_cells{.toi_tolerance = options.toi_tolerance, .t_max = options.t_max};
+  for (const CellKind kind : cell_kinds) {
+    const std::span corners = mesh().corners_of(kind);
+    const std::size_t size = mesh().count_of(kind);
     tbb::parallel_for(std::size_t{0}, (size + kernel_block - 1) / kernel_block, [&](std::size_t i) {
       if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) throw Stopped();
       const double t_limit = limit();
@@ -344,52 +345,47 @@ void Scene::find_inversions(const CertifiedOptions& options, double kept_volume,
       const auto number = [&](std::size_t index) {
         return static_cast<std::int32_t>(first + index);
       };
-      KernelInput block{.kind = kind,
-                        .count = std::min(kernel_block, size - first),
-                        .vertices = vertices_.data(),
-                        .kept_volume = kept_volume};
-      if (kind == Kind::tetrahedron) {
-        block.tetrahedra = tetrahedra.data() + first;
-      } else {
-        block.faces = triangles.data() + first;
-      }
-      decide_elements(
-          block, t_limit, options, kernel_,
-          [&](std::size_t index) { return query_of(kind, number(index)); },
-          [&](std::size_t index, const CertifiedResult& result) {
+      decide_cells(
+          {.kind = kind,
+           .count = std::min(kernel_block, size - first),
+           .vertices = vertices_.data(),
+           .corners = corners.data() + first * record_of(kind).point_count,
+           .kept_volume = kept_volume},
+          t_limit, of_cells, kernel_,
+          [&](std::size_t index) { return tetrahedron_of(kind, number(index)); },
+          [&](std::size_t index, const Inversion& result) {
             if (result.verdict != Verdict::yes) return;
             report({.kind = kind,
-                    .element = number(index),
+                    .cell = number(index),
                     .start = result.start,
                     .toi_lower = result.toi_lower,
                     .toi_upper = result.toi_upper});
           });
     });
-  };
-  find(Kind::tetrahedron, tetrahedra.size());
-  find(Kind::plane_triangle, triangles.size());
+  }
 }
 
-Query Scene::query_of(Kind kind, std::int32_t element) const {
-  if (kind == Kind::tetrahedron) {
-    return fast::query_of(vertices_, at(mesh().tetrahedra, element));
-  }
-  const auto [a, b, c] = at(mesh().plane_triangles, element);
-  return to_tetrahedron(kind, fast::query_of(vertices_, {a, b, c, b}));
+Query Scene::tetrahedron_of(CellKind kind, std::int32_t cell) const {
+  const std::size_t count = record_of(kind).point_count;
+  const std::span corners =
+      mesh().corners_of(kind).subspan(static_cast<std::size_t>(cell) * count, count);
+  Tetrahedron points{};
+  std::ranges::copy(corners, points.begin());
+  return to_tetrahedron(kind, fast::query_of(vertices_, points));
 }
 
 // ---- Pairs --------------------------------------------------------------------------------------
 
-IndexPair Scene::reported(PairKind kind, const IndexPair& pair) const {
+IndexPair Scene::reported(ContactKind kind, const IndexPair& pair) const {
   const PairRecord& record = record_of(kind);
   if (record.some != Sort::points) return pair;
   return {at(mesh_->numbers[record.some], pair[0]), at(mesh_->numbers[record.all], pair[1])};
 }
 
-Candidates Scene::candidates_of(PairKind kind, std::span<const IndexPair> pairs,
+Candidates Scene::candidates_of(ContactKind kind, std::span<const IndexPair> pairs,
                                 PairScratch& scratch) const {
   const PairRecord& record = record_of(kind);
-  Candidates result{.kind = record.query_kind,
+  Candidates result{.kind = decided_as(kind),
                     .pairs = pairs,
                     .edges = mesh().edges,
                     .faces = mesh_->as_faces[record.all]};
@@ -401,7 +397,7 @@ Candidates Scene::candidates_of(PairKind kind, std::span<const IndexPair> pairs,
   return result;
 }
 
-std::vector<double> Scene::numbers_of(PairKind kind, std::span<const IndexPair> pairs) const {
+std::vector<double> Scene::numbers_of(ContactKind kind, std::span<const IndexPair> pairs) const {
   const QueryShape& shape = vertices_.shape();
   const std::size_t size = shape.numbers_of_point();
   std::vector<double> numbers;
@@ -435,15 +431,15 @@ KernelInput Scene::block_of(const Candidates& candidates, const FixedPointVertic
           .rounded_distance = distance};
 }
 
-double Scene::thickness_of(PairKind kind, const IndexPair& pair) const {
+double Scene::thickness_of(ContactKind kind, const IndexPair& pair) const {
   if (!has_thickness()) return 0.0;
   const auto vertices = vertices_of(kind, pair);
   const std::span all(vertices);
-  const std::size_t of_first = Step::kind_of(kind) == Kind::edge_edge ? 2 : 1;
+  const std::size_t of_first = decided_as(kind) == ContactKind::edge_edge ? 2 : 1;
   return mesh_->bodies.thickness(all.first(of_first), all.subspan(of_first));
 }
 
-std::pair<double, double> Scene::find_distances(PairKind kind, std::span<const IndexPair> pairs,
+std::pair<double, double> Scene::find_distances(ContactKind kind, std::span<const IndexPair> pairs,
                                                 const Separation& of_step,
                                                 std::span<double> distances) const {
   double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
@@ -455,7 +451,7 @@ std::pair<double, double> Scene::find_distances(PairKind kind, std::span<const I
   return {least, greatest};
 }
 
-const KernelOutput& Scene::decided_on_lanes(PairKind kind, std::span<const IndexPair> pairs,
+const KernelOutput& Scene::decided_on_lanes(ContactKind kind, std::span<const IndexPair> pairs,
                                             const FixedPointVertices& rounded,
                                             const Separation& separation, double t_limit) const {
   thread_local KernelOutput output;
@@ -467,7 +463,7 @@ const KernelOutput& Scene::decided_on_lanes(PairKind kind, std::span<const Index
   return output;
 }
 
-StepCollision collision_of(PairKind kind, const IndexPair& pair, const CertifiedResult& result) {
+StepCollision collision_of(ContactKind kind, const IndexPair& pair, const CertifiedResult& result) {
   const PairRecord& record = record_of(kind);
   return {.kind = kind,
           .pair = pair,
@@ -485,7 +481,7 @@ void sort_by_pair(std::vector<StepCollision>& collisions) {
 
 void sort_by_number(std::vector<StepInversion>& inversions) {
   std::ranges::sort(inversions, [](const StepInversion& a, const StepInversion& b) {
-    return std::tie(a.kind, a.element) < std::tie(b.kind, b.element);
+    return std::tie(a.kind, a.cell) < std::tie(b.kind, b.cell);
   });
 }
 
@@ -507,7 +503,7 @@ Distance less(const Distance& distance, double thickness) {
   return result;
 }
 
-std::array<std::int32_t, moving_points> Scene::vertices_of(PairKind kind,
+std::array<std::int32_t, moving_points> Scene::vertices_of(ContactKind kind,
                                                            const IndexPair& pair) const {
   const auto [first, second] = pair;
   const PairRecord& record = record_of(kind);
@@ -522,7 +518,7 @@ std::array<std::int32_t, moving_points> Scene::vertices_of(PairKind kind,
   return {c, d, a, b};
 }
 
-Query Scene::query_of(PairKind kind, const IndexPair& pair) const {
+Query Scene::query_of(ContactKind kind, const IndexPair& pair) const {
   return fast::query_of(vertices_, vertices_of(kind, pair));
 }
 

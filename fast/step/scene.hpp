@@ -65,19 +65,17 @@ using OfPrimitives = std::array<Item, Sort::count>;
 
 /// The differences between the kinds of pairs.
 struct PairRecord {
-  std::string_view name;
-  Kind query_kind;   ///< the kind of the query that decides a pair
   std::size_t some;  ///< the sort of the first primitive
   std::size_t all;   ///< the sort of the second primitive
   bool has_u;        ///< true if a collision has a parameter u, or v
   bool has_v;
 };
 inline constexpr std::array<PairRecord, 4> pair_records{
-    {{"vertex-face", Kind::vertex_face, Sort::vertices, Sort::faces, true, true},
-     {"edge-edge", Kind::edge_edge, Sort::edges, Sort::edges, true, true},
-     {"vertex-edge", Kind::vertex_face, Sort::points, Sort::bare_edges, true, false},
-     {"vertex-vertex", Kind::vertex_face, Sort::points, Sort::points, false, false}}};
-[[nodiscard]] constexpr const PairRecord& record_of(PairKind kind) {
+    {{Sort::vertices, Sort::faces, true, true},
+     {Sort::edges, Sort::edges, true, true},
+     {Sort::points, Sort::bare_edges, true, false},
+     {Sort::points, Sort::points, false, false}}};
+[[nodiscard]] constexpr const PairRecord& record_of(ContactKind kind) {
   return pair_records[static_cast<std::size_t>(kind)];
 }
 
@@ -112,7 +110,7 @@ inline constexpr std::size_t groups_of_part = 16;
 
 /// A part of the search for pairs of one kind: groups of the searching tree.
 struct SearchPart {
-  PairKind kind;
+  ContactKind kind;
   std::size_t first;
   std::size_t end;
 };
@@ -154,7 +152,7 @@ struct SceneGroups {
 };
 
 /// The certified solver's result for a pair that collides, with the numbers of the interface.
-[[nodiscard]] StepCollision collision_of(PairKind kind, const IndexPair& pair,
+[[nodiscard]] StepCollision collision_of(ContactKind kind, const IndexPair& pair,
                                          const CertifiedResult& result);
 
 /// Sorts by kind, then by the numbers of the primitives.
@@ -205,31 +203,31 @@ class Scene final : private PairQuestions {
   /// \param trees swept_trees()
   void find_candidates(const Trees<1>& trees, const SearchPart& part, PairBuffer& pairs) const;
 
-  // ---- Elements ----
+  // ---- Cells ----
 
-  /// Calls report(inversion), in several threads, for the elements that keep no more than this part
+  /// Calls report(inversion), in several threads, for the cells that keep no more than this part
   /// of their volume at times up to limit(), which may fall, and is negative to end the search;
   /// later inversions may be reported, too. Uses the threads of the caller's task arena.
   /// \param options certified(), or others \throws Stopped
   void find_inversions(const CertifiedOptions& options, double kept_volume,
                        const std::function<double()>& limit,
                        const std::function<void(const StepInversion&)>& report) const;
-  /// An element as a tetrahedron.
-  [[nodiscard]] Query query_of(Kind kind, std::int32_t element) const;
+  /// A cell as a tetrahedron.
+  [[nodiscard]] Query tetrahedron_of(CellKind kind, std::int32_t cell) const;
 
   // ---- Pairs ----
 
   /// The numbers of the interface.
-  [[nodiscard]] IndexPair reported(PairKind kind, const IndexPair& pair) const;
+  [[nodiscard]] IndexPair reported(ContactKind kind, const IndexPair& pair) const;
 
   /// True if the thickness of some pairs is not 0.
   [[nodiscard]] bool has_thickness() const { return mesh_->bodies.has_thickness(); }
   /// A bound of the thickness of all pairs.
   [[nodiscard]] double greatest_thickness() const { return mesh_->bodies.greatest_thickness(); }
   /// The thickness of a pair with the numbers of the interface.
-  [[nodiscard]] double thickness_of(PairKind kind, const IndexPair& pair) const;
+  [[nodiscard]] double thickness_of(ContactKind kind, const IndexPair& pair) const;
   /// Its separation in a step of that separation.
-  [[nodiscard]] Separation separation_of(PairKind kind, const IndexPair& pair,
+  [[nodiscard]] Separation separation_of(ContactKind kind, const IndexPair& pair,
                                          const Separation& of_step) const {
     return {.distance = of_step.distance + thickness_of(kind, pair), .norm = of_step.norm};
   }
@@ -238,7 +236,7 @@ class Scene final : private PairQuestions {
   /// t_limit, or after the interval of the rounded vertices, may be ignored. On curves, nothing is
   /// rounded.
   template <class Report>
-  void decide(PairKind kind, std::span<const IndexPair> pairs, const FixedPointVertices& rounded,
+  void decide(ContactKind kind, std::span<const IndexPair> pairs, const FixedPointVertices& rounded,
               double t_limit, const Report& report) const {
     for_each_separation(
         kind, pairs, rounded, certified_.separation, t_limit,
@@ -252,7 +250,7 @@ class Scene final : private PairQuestions {
           if (!vertices_.is_straight()) {
             const std::vector<double> numbers = numbers_of(kind, some);
             QueryShape shape = vertices_.shape();
-            shape.kind = record_of(kind).query_kind;
+            shape.kind = decided_as(kind);
             decide_curves(Queries(shape, numbers), t_limit, options, kernel_, take);
             return;
           }
@@ -270,7 +268,7 @@ class Scene final : private PairQuestions {
   /// Calls report(place) for the pairs that collide up to t_limit at a separation, and possibly for
   /// others: those that floating point does not exclude. \param rounded for this separation
   template <class Report>
-  void sieve(PairKind kind, std::span<const IndexPair> pairs, const FixedPointVertices& rounded,
+  void sieve(ContactKind kind, std::span<const IndexPair> pairs, const FixedPointVertices& rounded,
              const Separation& separation, double t_limit, const Report& report) const {
     for_each_separation(
         kind, pairs, rounded, separation, t_limit,
@@ -282,9 +280,9 @@ class Scene final : private PairQuestions {
 
   /// The vertices of a pair with the numbers of the interface, and this pair as a query: as in
   /// Step.
-  [[nodiscard]] std::array<std::int32_t, moving_points> vertices_of(PairKind kind,
+  [[nodiscard]] std::array<std::int32_t, moving_points> vertices_of(ContactKind kind,
                                                                     const IndexPair& pair) const;
-  [[nodiscard]] Query query_of(PairKind kind, const IndexPair& pair) const;
+  [[nodiscard]] Query query_of(ContactKind kind, const IndexPair& pair) const;
 
  private:
   using PairScratch = std::array<IndexPair, kernel_block>;
@@ -308,14 +306,14 @@ class Scene final : private PairQuestions {
   [[nodiscard]] bool primitives_meet(const Primitive& a, const Primitive& b) const override;
 
   /// The kernel's output for pairs with this separation, valid until the thread's next call.
-  [[nodiscard]] const KernelOutput& decided_on_lanes(PairKind kind,
+  [[nodiscard]] const KernelOutput& decided_on_lanes(ContactKind kind,
                                                      std::span<const IndexPair> pairs,
                                                      const FixedPointVertices& rounded,
                                                      const Separation& separation,
                                                      double t_limit) const;
   /// `sieve` for pairs with this separation.
   template <class Report>
-  void sieve_alike(PairKind kind, std::span<const IndexPair> pairs,
+  void sieve_alike(ContactKind kind, std::span<const IndexPair> pairs,
                    const FixedPointVertices& rounded, const Separation& separation, double t_limit,
                    const Report& report) const {
     const KernelOutput& output = decided_on_lanes(kind, pairs, rounded, separation, t_limit);
@@ -328,7 +326,7 @@ class Scene final : private PairQuestions {
   /// that do not collide up to t_limit by the greatest of several separations: many separations
   /// leave few pairs for each call.
   template <class Take>
-  void for_each_separation(PairKind kind, std::span<const IndexPair> pairs,
+  void for_each_separation(ContactKind kind, std::span<const IndexPair> pairs,
                            const FixedPointVertices& rounded, const Separation& of_step,
                            double t_limit, const Take& take) const {
     if (!has_thickness()) {
@@ -362,16 +360,16 @@ class Scene final : private PairQuestions {
   }
 
   /// The pairs for the certified solver. \param scratch Memory for the numbers, if they differ.
-  [[nodiscard]] Candidates candidates_of(PairKind kind, std::span<const IndexPair> pairs,
+  [[nodiscard]] Candidates candidates_of(ContactKind kind, std::span<const IndexPair> pairs,
                                          PairScratch& scratch) const;
   /// The pairs as queries on curves: their numbers.
-  [[nodiscard]] std::vector<double> numbers_of(PairKind kind,
+  [[nodiscard]] std::vector<double> numbers_of(ContactKind kind,
                                                std::span<const IndexPair> pairs) const;
   [[nodiscard]] KernelInput block_of(const Candidates& candidates,
                                      const FixedPointVertices& rounded,
                                      const Separation& separation) const;
   /// Finds the distances of pairs' separations. Returns the least and the greatest.
-  std::pair<double, double> find_distances(PairKind kind, std::span<const IndexPair> pairs,
+  std::pair<double, double> find_distances(ContactKind kind, std::span<const IndexPair> pairs,
                                            const Separation& of_step,
                                            std::span<double> distances) const;
   [[nodiscard]] FloatBounds bounds_up_to(double end) const;

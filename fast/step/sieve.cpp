@@ -10,10 +10,10 @@ namespace touchstone::fast {
 template <std::size_t instants>
 void for_each_possible_collision(const Scene& scene, const SceneInterval<instants>& interval,
                                  const Separation& separation, double t_limit,
-                                 const std::function<void(PairKind, const IndexPair&)>& take) {
+                                 const std::function<void(ContactKind, const IndexPair&)>& take) {
   const std::vector<SearchPart> parts = scene.parts(groups_of_part);
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-    const PairKind kind = parts[i].kind;
+    const ContactKind kind = parts[i].kind;
     for_each_block(
         scene, [&](PairBuffer& pairs) { scene.find(interval.trees, parts[i], pairs); },
         [&](std::span<const IndexPair> pairs) {
@@ -25,10 +25,10 @@ void for_each_possible_collision(const Scene& scene, const SceneInterval<instant
 
 template void for_each_possible_collision(
     const Scene& scene, const SceneInterval<1>& interval, const Separation& separation,
-    double t_limit, const std::function<void(PairKind, const IndexPair&)>& take);
+    double t_limit, const std::function<void(ContactKind, const IndexPair&)>& take);
 
 void for_each_possible_collision(const Scene& scene, double t_limit,
-                                 const std::function<void(PairKind, const IndexPair&)>& take) {
+                                 const std::function<void(ContactKind, const IndexPair&)>& take) {
   const double end = t_end_of(t_limit);
   const Separation& separation = scene.certified().separation;
   if (end <= short_end) {

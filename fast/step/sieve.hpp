@@ -21,7 +21,7 @@ namespace touchstone::fast {
 /// call it concurrently, in any order, under strict floating point. t_max has no effect. Uses the
 /// threads of the caller's task arena. \throws Stopped as Step.
 void for_each_possible_collision(const Scene& scene, double t_limit,
-                                 const std::function<void(PairKind, const IndexPair&)>& take);
+                                 const std::function<void(ContactKind, const IndexPair&)>& take);
 
 /// The same at another separation, not greater than the scene's.
 /// \param interval of the scene, with its rounded vertices for that separation
@@ -29,6 +29,6 @@ void for_each_possible_collision(const Scene& scene, double t_limit,
 template <std::size_t instants>
 void for_each_possible_collision(const Scene& scene, const SceneInterval<instants>& interval,
                                  const Separation& separation, double t_limit,
-                                 const std::function<void(PairKind, const IndexPair&)>& take);
+                                 const std::function<void(ContactKind, const IndexPair&)>& take);
 
 }  // namespace touchstone::fast

@@ -15,7 +15,7 @@ bool rounds_products(const BoxKernel& kernel) {
   // in instruction_set.hpp).
   constexpr double epsilon = 0x1p-30;
   BoxProblem problem;
-  problem.kind = Kind::edge_edge;
+  problem.kind = ContactKind::edge_edge;
   problem.coordinates[0] = {1.0 + epsilon,  -1.0 / epsilon, 0, 0,
                             -1.0 / epsilon, 1.0 + epsilon,  0, 0};
   const CornerValues f = kernel.corners(problem, {{epsilon, 1.0 - epsilon, 0, 1, 0, 1}}, 0);

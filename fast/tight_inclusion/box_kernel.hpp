@@ -26,7 +26,7 @@ struct BoxProblem {
   /// number fills the vector and is infinite.
   std::array<double, 4> filter{0.0, 0.0, 0.0, std::numeric_limits<double>::infinity()};
   double separation = 0.0;
-  Kind kind = Kind::vertex_face;
+  ContactKind kind = ContactKind::vertex_face;
 
   static constexpr std::size_t greatest_curve_degree = 3;
   /// The degree of curves (curved_box_kernel.hpp), and for each axis the coordinates of the four

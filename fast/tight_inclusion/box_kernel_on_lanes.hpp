@@ -96,7 +96,7 @@ struct BoxKernelOnLanes {
   }
 
   static BoxTest test(const BoxProblem& problem, const Box& box) {
-    if (problem.kind == Kind::edge_edge) {
+    if (problem.kind == ContactKind::edge_edge) {
       const BoxWeights w = edge_edge_weights(box);
       return test_axes(problem, [&](const auto& x) { return edge_edge_corners(x, w); });
     }
@@ -107,7 +107,7 @@ struct BoxKernelOnLanes {
   static CornerValues corners(const BoxProblem& problem, const Box& box, std::size_t axis) {
     CornerValues values;
     const auto& x = problem.coordinates[axis];
-    const Lanes lanes = problem.kind == Kind::edge_edge
+    const Lanes lanes = problem.kind == ContactKind::edge_edge
                             ? edge_edge_corners(x, edge_edge_weights(box))
                             : vertex_face_corners(x, vertex_face_weights(box));
     lanes.store(values.data());

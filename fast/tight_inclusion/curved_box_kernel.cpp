@@ -31,7 +31,7 @@ void set_values(const BoxProblem& problem, const Box& box, std::size_t axis, Val
     const std::array<double, 4> points = filters::points_on_curves<degree>(x, w);
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const double at_u = u[corner / 2], at_v = v[corner % 2];
-      values[k][corner] = problem.kind == Kind::edge_edge
+      values[k][corner] = problem.kind == ContactKind::edge_edge
                               ? filters::CurvedEdgeEdge<degree>::template from_points<double>(
                                     points, {1.0 - at_u, at_u, 1.0 - at_v, at_v})
                               : filters::CurvedVertexFace<degree>::template from_points<double>(
@@ -136,7 +136,7 @@ Range range_of_rational(const BoxProblem& problem, const Box& box, std::size_t a
   for (const double u : {u0, u1}) {
     for (const double v : {v0, v1}) {
       const auto f = [&](double Range::*a, double Range::*b) {
-        if (problem.kind == Kind::edge_edge) {
+        if (problem.kind == ContactKind::edge_edge) {
           return filters::CurvedEdgeEdge<2>::from_points<double>(
               {x[0].*a, x[1].*a, x[2].*b, x[3].*b}, {1.0 - u, u, 1.0 - v, v});
         }
@@ -233,13 +233,13 @@ std::optional<std::array<double, 3>> filter_of_rational_curves(const BoxProblem&
   return result;
 }
 
-std::array<double, 3> filter_of_curves(Kind kind, std::size_t degree,
+std::array<double, 3> filter_of_curves(ContactKind kind, std::size_t degree,
                                        const std::array<double, 3>& x_max, double separation) {
   static_assert(greatest_of_curves <= filters::cubic_vertex_face_separated_double.greatest_x);
   std::array<double, 3> result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double x = std::max(x_max[axis], separation);
-    if (kind == Kind::edge_edge) {
+    if (kind == ContactKind::edge_edge) {
       result[axis] = degree == 2 ? filters::quadratic_edge_edge_separated_double(x)
                                  : filters::cubic_edge_edge_separated_double(x);
     } else {

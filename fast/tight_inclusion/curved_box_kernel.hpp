@@ -37,7 +37,7 @@ namespace touchstone::fast {
 
 /// The error bound of a computed value of F − d, for each axis.
 /// \param x_max the greatest coordinates of each axis, at most greatest_of_curves
-[[nodiscard]] std::array<double, 3> filter_of_curves(Kind kind, std::size_t degree,
+[[nodiscard]] std::array<double, 3> filter_of_curves(ContactKind kind, std::size_t degree,
                                                      const std::array<double, 3>& x_max,
                                                      double separation);
 

@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 
 namespace touchstone::python {
 
@@ -25,15 +25,19 @@ using Doubles = py::array_t<double, py::array::c_style>;
 /// An array of 32-bit integers in C's order, never converted.
 using Integers = py::array_t<std::int32_t, py::array::c_style>;
 
-[[nodiscard]] inline std::string name_of(Kind kind) {
+[[nodiscard]] inline std::string name_of(AnyKind kind) {
   std::string name(to_string(kind));
   std::ranges::replace(name, '-', '_');
   return name;
 }
 
-[[nodiscard]] inline Kind kind_from(std::string name) {
-  std::ranges::replace(name, '_', '-');
-  return kind_from_string(name);
+/// \throws std::invalid_argument for another text.
+[[nodiscard]] inline AnyKind kind_from(std::string_view text) {
+  for (std::size_t number = 0; number < AnyKind::count; ++number) {
+    const AnyKind kind = AnyKind::with_number(static_cast<std::int64_t>(number)).value();
+    if (text == name_of(kind)) return kind;
+  }
+  throw std::invalid_argument("there is no kind '" + std::string(text) + "'");
 }
 
 /// \throws std::invalid_argument for a distance that is negative or not finite.
@@ -46,11 +50,17 @@ using Integers = py::array_t<std::int32_t, py::array::c_style>;
 
 /// The queries of an array, which must live on: of shape (N, 8, 3), on straight lines, or of shape
 /// (N, k+1, 4, 3), or (N, k+1, 4, 4) with weights, on curves.
-[[nodiscard]] inline Queries queries_of(Kind kind, const Doubles& array) {
+[[nodiscard]] inline AnyQueries queries_of(AnyKind kind, const Doubles& array) {
   const std::span<const double> numbers{array.data(), std::size_t(array.size())};
   if (array.ndim() == 3) return {{.kind = kind}, numbers};
   const auto degree = std::size_t(array.shape(1)) - 1;
   return {{.kind = kind, .degree = degree, .is_rational = array.shape(3) == 4}, numbers};
+}
+
+/// The same of a kind of contact. \throws std::invalid_argument for a cell.
+[[nodiscard]] inline Queries contacts_of(std::string_view kind, const Doubles& array) {
+  const AnyKind any = kind_from(kind);
+  return queries_of(any, array).as(any.contact());
 }
 
 /// The items of a structured array that the caller has made for results, an item each.
@@ -64,9 +74,16 @@ template <class Item>
   return {static_cast<Item*>(array.mutable_data()), count};
 }
 
-/// \throws std::domain_error naming query i and the first of its numbers that is not finite, or a
-/// weight that is not positive, by its place in its array: on straight lines of shape (8, 3).
-inline void require_valid(const Queries& queries, std::size_t i) {
+/// True if that coordinate of a point, or its weight (axis 3), has an effect.
+[[nodiscard]] inline bool has_effect(AnyKind kind, std::size_t point, std::size_t axis) {
+  if (!kind.is_cell()) return decided_point(kind.contact(), point) == point;
+  return kind.cell() == CellKind::tetrahedron || (point < 3 && axis != 2);
+}
+
+/// \throws std::domain_error naming query i and the first of its numbers with an effect that is not
+/// finite, or a weight that is not positive, by its place in its array: on straight lines of shape
+/// (8, 3).
+inline void require_valid(const AnyQueries& queries, std::size_t i) {
   const std::span<const double> row = queries.row(i);
   const std::size_t numbers = queries.numbers_of_point();
   for (std::size_t place = 0; place < row.size(); ++place) {
@@ -74,6 +91,7 @@ inline void require_valid(const Queries& queries, std::size_t i) {
     const bool is_weight = place % numbers == 3;
     if (std::isfinite(x) && !(is_weight && x <= 0.0)) continue;
     const std::size_t point = place / numbers;
+    if (!has_effect(queries.kind, point % moving_points, place % numbers)) continue;
     const std::string points =
         queries.is_straight()
             ? std::to_string(point)

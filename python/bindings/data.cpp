@@ -35,7 +35,7 @@ using verify::io::DatasetError;
 
 /// The queries of a file in memory.
 struct Dataset {
-  QueryShape shape = {};
+  AnyShape shape = {};
   std::vector<double> numbers{};
   std::vector<std::uint8_t> labels{};  ///< none, or one for each query
   std::vector<std::pair<std::uint64_t, exact::Rational>> times{};
@@ -53,7 +53,7 @@ Dataset read_until(verify::data::QuerySource& source, const std::atomic<bool>& s
 }
 
 /// An array of their memory, of shape (N, 8, 3), or (N, degree + 1, 4, 3 or 4) on curves.
-py::array array_of(const QueryShape& shape, std::vector<double> all) {
+py::array array_of(const AnyShape& shape, std::vector<double> all) {
   auto owned = std::make_unique<std::vector<double>>(std::move(all));
   std::vector<py::ssize_t> extents{
       static_cast<py::ssize_t>(owned->size() / shape.numbers_of_query())};
@@ -113,9 +113,9 @@ py::list families() {
 py::list generate(const std::string& kind_name, const std::optional<std::string>& name,
                   std::uint64_t seed, std::uint64_t count, double distance,
                   const std::string& norm) {
-  const Kind kind = kind_from(kind_name);
+  const AnyKind kind = kind_from(kind_name);
   const Separation separation = separation_from(distance, norm);
-  if (!is_zero(separation)) require_contact(kind);
+  if (!is_zero(separation)) static_cast<void>(kind.contact());  // throws for a cell
   auto chosen =
       name ? std::vector{verify::generate::family_from_name(*name)} : families_about(separation);
   std::ranges::sort(chosen, {}, &verify::generate::Family::name);
@@ -147,8 +147,8 @@ void write(const std::string& path, const std::string& kind, const Doubles& arra
   if (!is_npy && file.extension() != ".csv") {
     throw std::invalid_argument(path + ": the name must end in .csv or .npy");
   }
-  const Queries queries = queries_of(kind_from(kind), array);
-  for (std::size_t i = 0; i < queries.size(); ++i) require_valid(queries, i);
+  const AnyQueries queries = queries_of(kind_from(kind), array);
+  for (std::size_t i = 0; i < queries.size(); ++i) require_valid(queries.as(AnyKind()), i);
   if (labels && (labels->ndim() != 1 || std::size_t(labels->size()) != queries.size())) {
     throw std::invalid_argument(path + ": there must be as many labels as queries");
   }

@@ -29,6 +29,7 @@
 #include "touchstone/oracle.hpp"
 #include "touchstone/scene_certificate.hpp"
 #include "touchstone/step.hpp"
+#include "verify/base/any_decision.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::python {
@@ -72,30 +73,31 @@ py::object time_to_python(const std::optional<exact::AlgebraicNumber>& time) {
 // ---- The oracle ---------------------------------------------------------------------------------
 
 struct DecisionItem {
-  bool collides;
+  bool is_yes;
   double toi_lower;
   double toi_upper;
 };
 
-py::dict decision_layout() {
+/// The verdict's name: what is decided.
+py::dict decision_layout(const std::string& verdict) {
   using Item = DecisionItem;
   return Layout(sizeof(Item))
-      .add("collides", "?", offsetof(Item, collides))
+      .add(verdict.c_str(), "?", offsetof(Item, is_yes))
       .add("toi_lower", "f8", offsetof(Item, toi_lower))
       .add("toi_upper", "f8", offsetof(Item, toi_upper))
       .dict();
 }
 
-/// The exact times of the queries that are done, where decide_one(i) decides query i.
-template <class DecideOne>
+/// The exact times of the queries that are done, where time_of(i) is that of query i.
+template <class TimeOf>
 py::list decided(std::size_t size, py::array results, int threads, const py::object& progress,
-                 const DecideOne& decide_one) {
+                 const TimeOf& time_of) {
   const auto items = items_of<DecisionItem>(results, size);
   std::vector<std::optional<exact::AlgebraicNumber>> times(size);
   const auto decide_some = [&](std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i) {
-      times[i] = decide_one(i).toi;
-      items[i] = {.collides = times[i].has_value(),
+      times[i] = time_of(i);
+      items[i] = {.is_yes = times[i].has_value(),
                   .toi_lower = fast::no_number,
                   .toi_upper = fast::no_number};
       if (!times[i]) continue;
@@ -112,11 +114,11 @@ py::list decided(std::size_t size, py::array results, int threads, const py::obj
 
 py::list decide(const std::string& kind, const Doubles& array, py::array results, double distance,
                 const std::string& norm, int threads, const py::object& progress) {
-  const Queries queries = queries_of(kind_from(kind), array);
+  const AnyQueries queries = queries_of(kind_from(kind), array);
   const Separation separation = separation_from(distance, norm);
   return decided(queries.size(), std::move(results), threads, progress, [&](std::size_t i) {
     require_valid(queries, i);
-    return exact::decide(queries, i, separation);
+    return verify::base::decide(queries, i, separation).toi;
   });
 }
 
@@ -128,14 +130,15 @@ py::list decide_curves(const std::string& kind_name,
                        const std::vector<std::array<CurveArguments, moving_points>>& curves,
                        py::array results, double distance, const std::string& norm, int threads,
                        const py::object& progress) {
-  const Kind kind = kind_from(kind_name);
+  const AnyKind kind = kind_from(kind_name);
   const Separation separation = separation_from(distance, norm);
   return decided(curves.size(), std::move(results), threads, progress, [&](std::size_t i) {
     CurvedQuery query;
     for (std::size_t point = 0; point < moving_points; ++point) {
       query[point] = {.control = curves[i][point].first, .weights = curves[i][point].second};
     }
-    return exact::decide(kind, query, separation);
+    return kind.is_cell() ? exact::first_inversion(kind.cell(), query)
+                          : exact::decide(kind.contact(), query, separation).toi;
   });
 }
 
@@ -151,7 +154,7 @@ exact::Claim claim_from(const std::string& name) {
 py::tuple prove(const std::string& kind_name, const Doubles& array, double distance,
                 const std::string& norm, const std::string& claim, int threads,
                 const py::object& progress) {
-  const Queries queries = queries_of(kind_from(kind_name), array);
+  const AnyQueries queries = queries_of(kind_from(kind_name), array);
   const Separation separation = separation_from(distance, norm);
   const exact::ProveOptions options{.collision_claim = claim_from(claim)};
   std::vector<std::string> texts(queries.size());
@@ -159,8 +162,8 @@ py::tuple prove(const std::string& kind_name, const Doubles& array, double dista
       queries.size(), oracle_block, threads, progress, [&](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i) {
           require_valid(queries, i);
-          const exact::Decision decision = exact::decide(queries, i, separation);
-          exact::write(texts[i], exact::prove(queries, i, decision, options));
+          const exact::Decision decision = verify::base::decide(queries, i, separation);
+          exact::write(texts[i], verify::base::prove(queries, i, decision, options));
         }
       });
   std::string stream(exact::certificates_header());
@@ -309,7 +312,11 @@ std::size_t solve(const std::string& name, const std::string& kind_name, const D
                   py::array results, double distance, const std::string& norm, double tolerance,
                   std::int64_t max_checks, double t_max, int threads, const py::object& progress) {
   const fast::Method& method = verify::solvers::find_method(name);
-  const Queries queries = queries_of(kind_from(kind_name), array);
+  AnyQueries queries = queries_of(kind_from(kind_name), array);
+  std::vector<double> memory;
+  if (!queries.kind.is_cell()) {
+    queries = decided_queries(queries.as(queries.kind.contact()), memory);
+  }
   const fast::Terms& terms = method.info().terms;
   if (!terms.answers(queries)) {
     throw std::invalid_argument(name + " does not answer queries on curves of this degree" +
@@ -337,7 +344,7 @@ std::size_t solve(const std::string& name, const std::string& kind_name, const D
 
 PYBIND11_MODULE(_exact, m) {
   using py::arg;
-  m.def("decision_layout", decision_layout);
+  m.def("decision_layout", decision_layout, arg("verdict"));
   m.def("decide", decide, arg("kind"), arg("queries").noconvert(), arg("results").noconvert(),
         arg("separation"), arg("norm"), arg("threads"), arg("progress"));
   m.def("decide_curves", decide_curves, arg("kind"), arg("curves"), arg("results").noconvert(),

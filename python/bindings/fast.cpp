@@ -1,11 +1,10 @@
 /// \file
-/// touchstone._fast: the certified solver, Tight-Inclusion and distances of batches, and steps.
+/// touchstone._fast: answers about batches of queries and of cells, and steps.
 /// Needs touchstone::fast alone. The package `touchstone` says what the functions mean; arrays are
 /// as arguments.hpp says, and each function returns the number of queries that it has done.
 
 #include <pybind11/pybind11.h>
 
-#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -17,6 +16,7 @@
 #include "python/bindings/step.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::python {
@@ -27,26 +27,35 @@ namespace {
 constexpr std::size_t certified_block = 2048;
 constexpr std::size_t search_block = 4;
 
-std::size_t certified(const std::string& kind_name, const Doubles& array, py::array results,
-                      double separation, const std::string& norm, double toi_tolerance,
-                      double t_max, int threads, const py::object& progress) {
-  const Queries queries = queries_of(kind_from(kind_name), array);
-  const auto items = items_of<fast::CertifiedResult>(results, queries.size());
-  const fast::CertifiedOptions options{.toi_tolerance = toi_tolerance,
-                                       .t_max = t_max,
-                                       .separation = separation_from(separation, norm),
-                                       .max_threads = 1};
-  fast::solve(queries.part(0, 0), {}, options);  // checks the options of no query too
-  return in_blocks(queries.size(), certified_block, threads, progress,
+/// Answers `queries` in `results` by calls of solve(part, items of the part), also for no query,
+/// which checks the options.
+template <class Item, class Kind, class Solve>
+std::size_t solve_blocks(const Batch<Kind>& queries, py::array& results, std::size_t block,
+                         int threads, const py::object& progress, const Solve& solve) {
+  const auto items = items_of<Item>(results, queries.size());
+  solve(queries.part(0, 0), std::span<Item>());
+  return in_blocks(queries.size(), block, threads, progress,
                    [&](std::size_t first, std::size_t count) {
                      const auto part = items.subspan(first, count);
-                     fast::solve(queries.part(first, count), part, options);
+                     solve(queries.part(first, count), part);
                      for (std::size_t i = 0; i < count; ++i) {
                        if (part[i].verdict == fast::Verdict::error) {
                          require_valid(queries, first + i);
                        }
                      }
                    });
+}
+
+std::size_t certified(const std::string& kind, const Doubles& array, py::array results,
+                      double separation, const std::string& norm, double toi_tolerance,
+                      double t_max, int threads, const py::object& progress) {
+  const fast::CertifiedOptions options{.toi_tolerance = toi_tolerance,
+                                       .t_max = t_max,
+                                       .separation = separation_from(separation, norm),
+                                       .max_threads = 1};
+  return solve_blocks<fast::CertifiedResult>(
+      contacts_of(kind, array), results, certified_block, threads, progress,
+      [&](const Queries& part, auto items) { fast::solve(part, items, options); });
 }
 
 py::dict certified_layout() {
@@ -61,64 +70,62 @@ py::dict certified_layout() {
       .dict();
 }
 
-/// The part of fast::TightInclusionResult that its users look at.
-struct TightInclusionItem {
-  bool collides;
-  double toi;
-  double tolerance;
-  std::int64_t checks;
-};
+std::size_t inversions(const std::string& kind, const Doubles& array, py::array results,
+                       double toi_tolerance, double t_max, int threads,
+                       const py::object& progress) {
+  const CellKind of_cells = kind_from(kind).cell();
+  const fast::InversionOptions options{
+      .toi_tolerance = toi_tolerance, .t_max = t_max, .max_threads = 1};
+  return solve_blocks<fast::Inversion>(
+      queries_of(of_cells, array).as(of_cells), results, certified_block, threads, progress,
+      [&](const Cells& part, auto items) { fast::inversions(part, items, options); });
+}
 
-std::size_t tight_inclusion(const std::string& kind_name, const Doubles& array, py::array results,
+py::dict inversion_layout() {
+  using Result = fast::Inversion;
+  return Layout(sizeof(Result))
+      .add("inverts", "?", offsetof(Result, verdict))
+      .add("is_exact", "?", offsetof(Result, is_exact))
+      .add("start", "i1", offsetof(Result, start))
+      .add("toi_lower", "f8", offsetof(Result, toi_lower))
+      .add("toi_upper", "f8", offsetof(Result, toi_upper))
+      .dict();
+}
+
+std::size_t tight_inclusion(const std::string& kind, const Doubles& array, py::array results,
                             double separation, const std::string& norm, double tolerance,
                             std::int64_t max_checks, double t_max, int threads,
                             const py::object& progress) {
-  const Queries queries = queries_of(kind_from(kind_name), array);
-  const auto items = items_of<TightInclusionItem>(results, queries.size());
   const fast::TightInclusionOptions options{.tolerance = tolerance,
                                             .max_checks = max_checks,
                                             .separation = separation_from(separation, norm),
                                             .t_max = t_max};
-  fast::tight_inclusion(queries.part(0, 0), {}, options);  // checks them
-  return in_blocks(
-      queries.size(), search_block, threads, progress, [&](std::size_t first, std::size_t count) {
-        std::array<fast::TightInclusionResult, search_block> found;
-        fast::tight_inclusion(queries.part(first, count), std::span(found).first(count), options);
-        for (std::size_t i = 0; i < count; ++i) {
-          const fast::TightInclusionResult& result = found[i];
-          if (result.verdict == fast::Verdict::error) {
-            require_valid(queries, first + i);
-          }
-          items[first + i] = {.collides = result.verdict == fast::Verdict::yes,
-                              .toi = result.toi,
-                              .tolerance = result.tolerance,
-                              .checks = result.checks};
-        }
-      });
+  return solve_blocks<fast::TightInclusionResult>(
+      contacts_of(kind, array), results, search_block, threads, progress,
+      [&](const Queries& part, auto items) { fast::tight_inclusion(part, items, options); });
 }
 
 py::dict tight_inclusion_layout() {
-  using Item = TightInclusionItem;
+  using Item = fast::TightInclusionResult;
   return Layout(sizeof(Item))
-      .add("collides", "?", offsetof(Item, collides))
+      .add("collides", "?", offsetof(Item, verdict))
       .add("toi", "f8", offsetof(Item, toi))
       .add("tolerance", "f8", offsetof(Item, tolerance))
       .add("checks", "i8", offsetof(Item, checks))
       .dict();
 }
 
-std::size_t distance(const std::string& kind_name, const Doubles& array, py::array results,
-                     double t, const std::string& norm, int threads, const py::object& progress) {
-  const Kind kind = kind_from(kind_name);
-  const Queries queries = queries_of(kind, array);
+std::size_t distance(const std::string& kind, const Doubles& array, py::array results, double t,
+                     const std::string& norm, int threads, const py::object& progress) {
+  const Queries queries = contacts_of(kind, array);
   const auto items = items_of<fast::Distance>(results, queries.size());
   const Norm of_distance = separation_from(0.0, norm).norm;
-  fast::distances(kind, {}, t, of_distance, {}, 1);  // checks the time
+  fast::distances(queries.kind, {}, t, of_distance, {}, 1);  // checks the time
   return in_blocks(queries.size(), search_block, threads, progress,
                    [&](std::size_t first, std::size_t count) {
                      for (std::size_t i = first; i < first + count; ++i) require_valid(queries, i);
-                     fast::distances(kind, queries.part(first, count).straight(), t, of_distance,
-                                     items.subspan(first, count), 1);
+                     fast::distances(queries.kind, queries.part(first, count).straight(), t,
+                                     of_distance, items.subspan(first, count), 1);
                    });
 }
 
@@ -140,12 +147,15 @@ PYBIND11_MODULE(_fast, m) {
   m.def("certified", certified, arg("kind"), arg("queries").noconvert(), arg("results").noconvert(),
         arg("separation"), arg("norm"), arg("toi_tolerance"), arg("t_max"), arg("threads"),
         arg("progress"));
+  m.def("inversions", inversions, arg("kind"), arg("cells").noconvert(), arg("results").noconvert(),
+        arg("toi_tolerance"), arg("t_max"), arg("threads"), arg("progress"));
   m.def("tight_inclusion", tight_inclusion, arg("kind"), arg("queries").noconvert(),
         arg("results").noconvert(), arg("separation"), arg("norm"), arg("tolerance"),
         arg("max_checks"), arg("t_max"), arg("threads"), arg("progress"));
   m.def("distance", distance, arg("kind"), arg("queries").noconvert(), arg("results").noconvert(),
         arg("t"), arg("norm"), arg("threads"), arg("progress"));
   m.def("certified_layout", certified_layout);
+  m.def("inversion_layout", inversion_layout);
   m.def("tight_inclusion_layout", tight_inclusion_layout);
   m.def("distance_layout", distance_layout);
   m.def("instruction_set", instruction_set);

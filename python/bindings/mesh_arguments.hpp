@@ -60,7 +60,7 @@ template <class Row>
           .points = rows_of<std::int32_t>(points)};
 }
 
-/// The same, with elements that have a volume.
+/// The same, with cells.
 [[nodiscard]] inline fast::Mesh mesh_from(const Integers& faces, const Integers& edges,
                                           const Integers& points, const Integers& tetrahedra,
                                           const Integers& plane_triangles) {

@@ -67,7 +67,7 @@ std::vector<Collision> collisions_from(const py::array& array) {
   if (collisions.empty()) return collisions;
   std::memcpy(collisions.data(), array.data(), collisions.size() * sizeof(Collision));
   for (const Collision& one : collisions) {
-    if (one.kind > fast::PairKind::vertex_vertex) {
+    if (one.kind > ContactKind::vertex_vertex) {
       throw std::invalid_argument("collisions: no kind has the number " +
                                   std::to_string(static_cast<int>(one.kind)));
     }
@@ -77,7 +77,7 @@ std::vector<Collision> collisions_from(const py::array& array) {
 
 /// fast::ActiveContact in one piece.
 struct Contact {
-  fast::PairKind kind;
+  ContactKind kind;
   fast::IndexPair pair;
   double toi_lower, toi_upper, u, v;
   std::array<std::array<double, 3>, 2> points;
@@ -126,7 +126,7 @@ py::dict step_inversion_layout() {
   using Item = fast::StepInversion;
   return Layout(sizeof(Item))
       .add("kind", "u1", offsetof(Item, kind))
-      .add("element", "i4", offsetof(Item, element))
+      .add("cell", "i4", offsetof(Item, cell))
       .add("start", "i1", offsetof(Item, start))
       .add("toi_lower", "f8", offsetof(Item, toi_lower))
       .add("toi_upper", "f8", offsetof(Item, toi_upper))
@@ -134,7 +134,7 @@ py::dict step_inversion_layout() {
 }
 
 struct Pair {
-  fast::PairKind kind;
+  ContactKind kind;
   fast::IndexPair pair;
 
   friend auto operator<=>(const Pair&, const Pair&) = default;
@@ -308,7 +308,7 @@ class StoppableStep {
     return array;
   }
   [[nodiscard]] py::array_t<double> query(int kind, std::int32_t first, std::int32_t second) const {
-    const Query query = step_->query_of(static_cast<fast::PairKind>(kind), {first, second});
+    const Query query = step_->query_of(static_cast<ContactKind>(kind), {first, second});
     py::array_t<double> array({py::ssize_t(8), py::ssize_t(3)});
     std::memcpy(array.mutable_data(), query.coordinates.data(), sizeof query);
     return array;

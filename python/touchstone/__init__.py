@@ -20,10 +20,12 @@ from .batch import (
     Answers as Answers,
     CertifiedResult as CertifiedResult,
     DistanceResult as DistanceResult,
+    Inversions as Inversions,
     TightInclusionResult as TightInclusionResult,
     Verdict as Verdict,
     distance as distance,
     instruction_set as instruction_set,
+    inversions as inversions,
     solve as solve,
     tight_inclusion as tight_inclusion,
 )
@@ -32,10 +34,12 @@ from .exact import (
     CheckReport as CheckReport,
     Curve as Curve,
     Decisions as Decisions,
+    FirstInversions as FirstInversions,
     Method as Method,
     Rejection as Rejection,
     check as check,
     decide as decide,
+    first_inversions as first_inversions,
     methods as methods,
     prove as prove,
 )
@@ -55,15 +59,15 @@ from .judging import (
     write as write,
 )
 from .scene import (
-    ElementKind as ElementKind,
+    CellKind as CellKind,
+    ContactKind as ContactKind,
     Impact as Impact,
     IntersectionKind as IntersectionKind,
     LeastDistance as LeastDistance,
     LineSearchLimit as LineSearchLimit,
-    PairKind as PairKind,
+    PrimitiveKind as PrimitiveKind,
     SceneProof as SceneProof,
     Step as Step,
-    VolumeKind as VolumeKind,
     intersections as intersections,
     prove_mesh as prove_mesh,
 )
@@ -77,6 +81,9 @@ _FORMER_NAMES = {
     "certify": "judge(solver, data)",
     "CurvedStep": "Step(control_points, ...)",
     "decide_curved": "decide(kind, [Curve(...), ...])",
+    "ElementKind": "PrimitiveKind(number)",
+    "PairKind": "ContactKind(number)",
+    "VolumeKind": "CellKind(number)",
 }
 
 if not TYPE_CHECKING:

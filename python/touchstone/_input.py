@@ -15,7 +15,11 @@ from typing import Any, Callable, Dict, Iterable, Literal, Sequence, Tuple, Type
 import numpy as np
 import numpy.typing as npt
 
-Kind = Literal["vertex_face", "edge_edge", "tetrahedron", "plane_triangle"]
+ContactName = Literal["vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"]
+CellName = Literal["tetrahedron", "plane_triangle"]
+AnyName = Literal[ContactName, CellName]
+#: Of data sets and of solvers under test.
+Kind = Literal["vertex_face", "edge_edge", CellName]
 Norm = Literal["linf", "l2"]
 Doubles = npt.NDArray[np.float64]
 Booleans = npt.NDArray[np.bool_]
@@ -90,23 +94,28 @@ def _as_flag(value: Any, name: str) -> bool:
     return bool(value)
 
 
-def _as_one_of(words: Any) -> Callable[[Any, str], str]:
+def _as_one_of(words: Any, others: Any = None, hint: str = "") -> Callable[[Any, str], str]:
     def as_word(value: Any, name: str) -> str:
         choices = " or ".join(map(repr, get_args(words)))
         if not isinstance(value, str):
             raise _wrong_type(f"{name} must be {choices}", value)
         if value not in get_args(words):
-            raise ValueError(f"{name} must be {choices}, not {reprlib.repr(value)}")
+            of_others = hint if value in get_args(others) else ""
+            raise ValueError(f"{name} must be {choices}, not {reprlib.repr(value)}{of_others}")
         return str(value)
 
     return as_word
 
 
+as_contact = _as_one_of(ContactName, CellName, ", a cell: call inversions, or first_inversions for exact times")
 #: By annotations, which are texts.
 _CONVERSIONS: Dict[str, Callable[[Any, str], Any]] = {
     "float": as_number,
     "int": _as_whole_number,
     "bool": _as_flag,
+    "ContactName": as_contact,
+    "CellName": _as_one_of(CellName, ContactName, ", a contact: call solve, or decide for exact times"),
+    "AnyName": _as_one_of(AnyName),
     "Kind": _as_one_of(Kind),
     "Norm": _as_one_of(Norm),
 }
@@ -295,8 +304,11 @@ class BatchResult:
         value = self.array[name]
         return value[()] if isinstance(value, np.ndarray) else value
 
+    def _verdict(self) -> str:
+        return (self.array.dtype.names or ("array",))[0]
+
     def __len__(self) -> int:
-        """Return the number of queries."""
+        """Return the number of queries, or cells."""
         return int(self.array.size)
 
     def __bool__(self) -> bool:
@@ -307,7 +319,7 @@ class BatchResult:
         TypeError
             Always.
         """
-        raise TypeError(f"a {type(self).__name__} is neither true nor false: ask for its .collides")
+        raise TypeError(f"a {type(self).__name__} is neither true nor false: ask for its .{self._verdict()}")
 
     def __getitem__(self: Result, key: Any) -> Result:
         """Return the results of some queries, as NumPy selects them."""
@@ -321,10 +333,10 @@ class BatchResult:
         if self.array.ndim == 0:
             fields = ", ".join(f"{name}={value}" for name, value in self.to_dict().items())
             return f"{type(self).__name__}({fields})"
-        names = self.array.dtype.names or ()
-        text = f"{type(self).__name__}: {len(self)} queries"
-        if "collides" in names:
-            text += f", {np.count_nonzero(self.array['collides'])} collide"
+        verdict = self._verdict()
+        text = f"{type(self).__name__}: {len(self)} {'cells' if verdict == 'inverts' else 'queries'}"
+        if verdict in ("collides", "inverts"):
+            text += f", {np.count_nonzero(self.array[verdict])} {verdict[:-1]}"
         return text
 
     def _repr_html_(self) -> str:

@@ -5,19 +5,20 @@
 
 from __future__ import annotations
 
+import functools
 from enum import IntEnum
-from functools import wraps
 from typing import Any, Callable, Type, TypeVar, cast, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from ._input import BatchResult, Booleans, Doubles, Function, Interrupted, Kind, Norm
-from ._input import as_queries, checked, column, load
+from ._input import AnyName, BatchResult, Booleans, CellName, ContactName, Doubles, Function, Interrupted, Norm
+from ._input import as_contact, as_queries, checked, column, load
 from ._tool import Progress
 
 _fast: Any = load("_fast")
 _certified_type = np.dtype(_fast.certified_layout())
+_inversion_type = np.dtype(_fast.inversion_layout())
 _tight_inclusion_type = np.dtype(_fast.tight_inclusion_layout())
 _distance_type = np.dtype(_fast.distance_layout())
 
@@ -32,13 +33,15 @@ def instruction_set() -> str:
 def run_batch(
     result: Type[Result],
     item_type: np.dtype[Any],
-    queries: npt.ArrayLike,
     progress: bool | None,
     out: Result | None,
-    work: Callable[[Doubles, npt.NDArray[np.void], Callable[..., None] | None], int],
-    curves: bool = False,
+    work: Callable[..., int],
+    kind: str,
+    queries: npt.ArrayLike,
+    *options: Any,
+    curves: bool = True,
 ) -> Result:
-    """Return the results of work(queries, items, callback), which says how many queries it has done.
+    """Return the results of work(kind, array, items, *options, callback): how many queries it has done.
 
     They are written into the memory of `out` if that is given.
     """
@@ -51,11 +54,8 @@ def run_batch(
             f"out must be an earlier {result.__name__} for as many queries, not a {type(out).__name__}{shape}"
         )
     items = out.array.reshape(len(array))
-    if single:
-        done = work(array, items, None)
-    else:
-        with Progress(result.__name__, progress, queries=len(array)) as bar:
-            done = work(array, items, bar.callback)
+    with Progress(result.__name__, False if single else progress, queries=len(array)) as bar:
+        done = work(kind, array, items, *options, bar.callback)
     if done < len(array):
         raise Interrupted(result(items[:done]))
     return out
@@ -99,7 +99,7 @@ class Answers(BatchResult):
 def _not_in_the_former_order(function: Function) -> Function:
     """Refuse solve(method, kind, queries), which it was up to version 0.4, and name what it is now."""
 
-    @wraps(function)
+    @functools.wraps(function)
     def call(*arguments: Any, **options: Any) -> Any:
         if len(arguments) > 2:
             raise TypeError("solve(method, kind, queries) has become solve(kind, queries, method=...)")
@@ -110,7 +110,7 @@ def _not_in_the_former_order(function: Function) -> Function:
 
 @overload
 def solve(
-    kind: Kind,
+    kind: ContactName,
     queries: npt.ArrayLike,
     *,
     separation: float = ...,
@@ -123,7 +123,7 @@ def solve(
 ) -> CertifiedResult: ...
 @overload
 def solve(
-    kind: Kind,
+    kind: AnyName,
     queries: npt.ArrayLike,
     *,
     method: str,
@@ -139,7 +139,7 @@ def solve(
 @_not_in_the_former_order
 @checked
 def solve(
-    kind: Kind,
+    kind: AnyName,
     queries: npt.ArrayLike,
     *,
     method: str | None = None,
@@ -160,11 +160,13 @@ def solve(
 
     Parameters
     ----------
-    kind : {"vertex_face", "edge_edge", "tetrahedron", "plane_triangle"}
-        The primitives of all queries; or an element on straight lines, which "collides" if it inverts (as `Step.inversions` says of a mesh).
+    kind : {"vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"}
+        The primitives of all queries. With a `method` that answers them also "tetrahedron" or
+        "plane_triangle": such a cell "collides" if it inverts.
     queries : array_like of shape (N, 8, 3) or (8, 3)
-        Four points at t=0, then at t=1: v, f0, f1, f2 or ea0, ea1, eb0, eb1. Used without a copy if
-        it is float64 and C-contiguous; anything else is converted, float32 exactly. Or of shape
+        Four points at t=0, then at t=1: v, f0, f1, f2 or ea0, ea1, eb0, eb1; or v, e0, e1 or v, w, and
+        points without an effect, NaN too. Used without a copy if it is float64 and C-contiguous;
+        anything else is converted, float32 exactly. Or of shape
         (N, k + 1, 4, 3) or (k + 1, 4, 3): control points of Bézier curves of degree k, 1 to 8, from
         t=0 to t=1; with 4 instead of 3 numbers, the last one a positive weight, rational curves.
     method : str, optional
@@ -194,7 +196,7 @@ def solve(
     Raises
     ------
     ValueError
-        For another shape or type, a coordinate that is NaN or infinite, a weight that is not positive,
+        For a cell without `method`, another shape or type, a coordinate that is NaN or infinite, a weight that is not positive,
         options out of range or without effect, or an `out` of another function or number of queries; for an
         unknown method, with the names there are; for a separation, or curves, that it does not support.
 
@@ -228,31 +230,59 @@ def solve(
             raise ValueError("toi_tolerance is an option of the certified solver; a method by name has tolerance")
         module = load("_exact")
         limits = 1e-6 if tolerance is None else tolerance, 1_000_000 if max_checks is None else max_checks
-        return run_batch(
-            Answers,
-            np.dtype(module.answer_layout()),
-            queries,
-            progress,
-            out,
-            lambda array, items, callback: module.solve(
-                method, kind, array, items, separation, norm, *limits, t_max, threads, callback
-            ),
-            curves=True,
-        )
+        of_method = functools.partial(module.solve, method)
+        layout = np.dtype(module.answer_layout())
+        return run_batch(Answers, layout, progress, out, of_method, kind, queries, separation, norm, *limits, t_max, threads)
+    as_contact(kind, "kind")
     if tolerance is not None or max_checks is not None:
         raise ValueError("tolerance and max_checks are options of a method by name; the certified solver has toi_tolerance")
     width = 1e-12 if toi_tolerance is None else toi_tolerance
-    return run_batch(
-        CertifiedResult,
-        _certified_type,
-        queries,
-        progress,
-        out,
-        lambda array, items, callback: _fast.certified(
-            kind, array, items, separation, norm, width, t_max, threads, callback
-        ),
-        curves=True,
-    )
+    options = separation, norm, width, t_max, threads
+    return run_batch(CertifiedResult, _certified_type, progress, out, _fast.certified, kind, queries, *options)
+
+
+class Inversions(BatchResult):
+    """Answers about cells."""
+
+    inverts: Booleans = column("The verdicts, always right.")
+    is_exact: Booleans = column("True if integers decided.")
+    start: npt.NDArray[np.int8] = column("The signs of the volumes at t=0: 1, 0 (flat) or -1 (inverted).")
+    toi_lower: Doubles = column("Below the first time; both are 0 unless `start` is 1; NaN without an inversion.")
+    toi_upper: Doubles = column("Not below the first time; NaN without an inversion.")
+
+
+@checked
+def inversions(
+    kind: CellName,
+    cells: npt.ArrayLike,
+    *,
+    toi_tolerance: float = 1e-12,
+    t_max: float = 1.0,
+    threads: int = 0,
+    progress: bool | None = None,
+    out: Inversions | None = None,
+) -> Inversions:
+    """Decide whether and when the volumes of moving cells are 0 or negative: exact verdicts, enclosed first times.
+
+    Parameters
+    ----------
+    kind : {"tetrahedron", "plane_triangle"}
+        The cells, whose volumes and areas are those of `Step`.
+    cells : array_like of shape (N, 8, 3) or (8, 3)
+        Four points at t=0, then at t=1, on straight lines. The fourth one and z of a triangle have no effect, NaN too.
+    toi_tolerance, t_max, threads, progress, out
+        As for `solve`, and so are errors.
+
+    Examples
+    --------
+    >>> import touchstone
+    >>> base = [0, 0, 0], [1, 0, 0], [0, 1, 0]
+    >>> answer = touchstone.inversions("tetrahedron", [*base, [0, 0, 1], *base, [0, 0, -1]])
+    >>> bool(answer.inverts), answer.toi_lower <= 0.5 <= answer.toi_upper
+    (True, True)
+    """
+    options = toi_tolerance, t_max, threads
+    return run_batch(Inversions, _inversion_type, progress, out, _fast.inversions, kind, cells, *options)
 
 
 class TightInclusionResult(BatchResult):
@@ -266,7 +296,7 @@ class TightInclusionResult(BatchResult):
 
 @checked
 def tight_inclusion(
-    kind: Kind,
+    kind: ContactName,
     queries: npt.ArrayLike,
     *,
     separation: float = 0.0,
@@ -303,17 +333,9 @@ def tight_inclusion(
     >>> bool(answer.collides), int(answer.checks)
     (False, 7)
     """
-    return run_batch(
-        TightInclusionResult,
-        _tight_inclusion_type,
-        queries,
-        progress,
-        out,
-        lambda array, items, callback: _fast.tight_inclusion(
-            kind, array, items, separation, norm, tolerance, max_checks, t_max, threads, callback
-        ),
-        curves=True,
-    )
+    options = separation, norm, tolerance, max_checks, t_max, threads
+    work = _fast.tight_inclusion
+    return run_batch(TightInclusionResult, _tight_inclusion_type, progress, out, work, kind, queries, *options)
 
 
 class DistanceResult(BatchResult):
@@ -325,7 +347,7 @@ class DistanceResult(BatchResult):
 
 @checked
 def distance(
-    kind: Kind,
+    kind: ContactName,
     queries: npt.ArrayLike,
     *,
     t: float = 0.0,
@@ -358,11 +380,5 @@ def distance(
     >>> touchstone.distance("vertex_face", query, norm="linf")
     DistanceResult(lower=0.3333333333333333, upper=0.33333333333333337)
     """
-    return run_batch(
-        DistanceResult,
-        _distance_type,
-        queries,
-        progress,
-        out,
-        lambda array, items, callback: _fast.distance(kind, array, items, t, norm, threads, callback),
-    )
+    options = t, norm, threads
+    return run_batch(DistanceResult, _distance_type, progress, out, _fast.distance, kind, queries, *options, curves=False)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import reprlib
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Callable, Literal, Sequence, Tuple, Union, cast
+from typing import Any, Callable, Literal, Sequence, Tuple, Type, Union, cast
 
 import numpy as np
 import numpy.typing as npt
 
-from ._input import BatchResult, Booleans, Doubles, Interrupted, Kind, Norm
+from ._input import AnyName, BatchResult, Booleans, CellName, ContactName, Doubles, Interrupted, Norm, Result
 from ._input import as_doubles, as_queries, checked, column, interruptible, load
 from ._tool import Progress
 
@@ -100,6 +100,15 @@ class Decisions(BatchResult):
     )
 
 
+class FirstInversions(BatchResult):
+    """Verdicts of the oracle about cells."""
+
+    inverts: Booleans = column("The verdicts.")
+    toi_lower: Doubles = column("The greatest double that is not above the first time; NaN without an inversion.")
+    toi_upper: Doubles = column("The least double that is not below the first time; NaN without an inversion.")
+    toi: Any = column("The exact first times, 0 if the volume is not positive at t=0; as in `Decisions`.")
+
+
 @dataclass(frozen=True, eq=False)
 class Curve:
     """A Bézier curve on which one point of a query moves, of a degree of its own.
@@ -120,8 +129,6 @@ class Curve:
         if points.ndim != 2 or points.shape[1] != 3:
             raise ValueError(f"the control points of a curve have the shape (k + 1, 3), not {points.shape}")
         weights = as_doubles(self.weights, "weights") if np.size(self.weights) else np.empty(0)
-        if not (np.isfinite(points).all() and np.isfinite(weights).all()):
-            raise ValueError("a number of a curve is not finite")
         return points.tolist(), weights.reshape(-1).tolist()
 
 
@@ -137,10 +144,38 @@ def _is_of_curves(queries: Any) -> bool:
     return isinstance(queries, (list, tuple)) and any(isinstance(one, Curve) for one in queries)
 
 
+ArrayOrCurves = Union[npt.ArrayLike, Sequence[Curve], Sequence[Sequence[Curve]]]
+
+
+def _decided(result: Type[Result], progress: bool | None, kind: str, queries: ArrayOrCurves, *options: Any) -> Result:
+    module = load("_exact")
+    array: Any
+    single = _is_of_curves(queries)
+    of_curves = single or (isinstance(queries, (list, tuple)) and any(map(_is_of_curves, queries)))
+    if of_curves:
+        array = [_numbers_of(query) for query in cast(Any, [queries] if single else queries)]
+    else:
+        array, single = as_queries(cast(npt.ArrayLike, queries), curves=True)
+    numbers = np.dtype(module.decision_layout("inverts" if result is FirstInversions else "collides"))
+    items = np.empty(len(array), dtype=numbers)
+    with Progress(result.__name__, progress, queries=len(array)) as bar:
+        decide_all: Any = module.decide_curves if of_curves else module.decide
+        times = decide_all(kind, array, items, *options, bar.callback)
+    done = len(times)
+    found = np.empty(done, dtype=[*((n, numbers[n]) for n in numbers.names or ()), ("toi", "O")])
+    for name in numbers.names or ():
+        found[name] = items[name][:done]
+    for i, time in enumerate(times):
+        found["toi"][i] = _time_from(time)
+    if done < len(array):
+        raise Interrupted(result(found))
+    return result(found.reshape(()) if single else found)
+
+
 @checked
 def decide(
-    kind: Kind,
-    queries: npt.ArrayLike | Sequence[Curve] | Sequence[Sequence[Curve]],
+    kind: ContactName,
+    queries: ArrayOrCurves,
     *,
     separation: float = 0.0,
     norm: Norm = "l2",
@@ -176,33 +211,33 @@ def decide(
     >>> touchstone.decide("vertex_face", [vertex, *(touchstone.Curve([point]) for point in start[1:])]).toi
     Fraction(1, 2)
     """
-    module = load("_exact")
-    array: Any
-    single = _is_of_curves(queries)
-    of_curves = single or (isinstance(queries, (list, tuple)) and any(map(_is_of_curves, queries)))
-    if of_curves:
-        array = [_numbers_of(query) for query in cast(Any, [queries] if single else queries)]
-    else:
-        array, single = as_queries(cast(npt.ArrayLike, queries), curves=True)
-    numbers = np.dtype(module.decision_layout())
-    items = np.empty(len(array), dtype=numbers)
-    with Progress("decide", progress, queries=len(array)) as bar:
-        decide_all: Any = module.decide_curves if of_curves else module.decide
-        times = decide_all(kind, array, items, separation, norm, threads, bar.callback)
-    done = len(times)
-    result = np.empty(done, dtype=[*((n, numbers[n]) for n in numbers.names or ()), ("toi", "O")])
-    for name in numbers.names or ():
-        result[name] = items[name][:done]
-    for i, time in enumerate(times):
-        result["toi"][i] = _time_from(time)
-    if done < len(array):
-        raise Interrupted(Decisions(result))
-    return Decisions(result.reshape(()) if single else result)
+    return _decided(Decisions, progress, kind, queries, separation, norm, threads)
+
+
+@checked
+def first_inversions(
+    kind: CellName, cells: ArrayOrCurves, *, threads: int = 0, progress: bool | None = None
+) -> FirstInversions:
+    """Decide cells by the oracle, in integers: the ground truth.
+
+    Parameters
+    ----------
+    kind, cells, threads, progress
+        As for `inversions`, and on curves as for `decide`; so are errors.
+
+    Examples
+    --------
+    >>> import touchstone
+    >>> base = [0, 0, 0], [1, 0, 0], [0, 1, 0]
+    >>> touchstone.first_inversions("tetrahedron", [*base, [0, 0, 1], *base, [0, 0, -2]]).toi
+    Fraction(1, 3)
+    """
+    return _decided(FirstInversions, progress, kind, cells, 0.0, "l2", threads)
 
 
 @checked
 def prove(
-    kind: Kind,
+    kind: AnyName,
     queries: npt.ArrayLike,
     *,
     separation: float = 0.0,
@@ -216,9 +251,9 @@ def prove(
     Parameters
     ----------
     kind, queries, separation, norm, threads, progress
-        As for `solve`.
+        As for `solve`, or of cells as for `first_inversions`, without a separation.
     claim : {"time_of_impact", "collision"}, optional
-        The claim about queries that collide.
+        The claim about queries that collide, or cells that invert.
 
     Returns
     -------
@@ -304,8 +339,8 @@ class CheckReport:
     def accepted(self) -> int:
         """The number of accepted certificates."""
         of_queries = self.no_collision + self.collision + self.time_of_impact
-        of_elements = self.no_inversion + self.inversion + self.time_of_inversion
-        return of_queries + of_elements + len(self.steps) + len(self.meshes)
+        of_cells = self.no_inversion + self.inversion + self.time_of_inversion
+        return of_queries + of_cells + len(self.steps) + len(self.meshes)
 
     def __bool__(self) -> bool:
         """Return True if nothing was rejected."""

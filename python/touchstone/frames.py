@@ -4,7 +4,7 @@
     touchstone step run.npz
 
 Triangles are faces, quads and polygons fans of triangles; of tetrahedra, hexahedra, wedges and pyramids the surface is taken: the
-faces of one cell only. Tetrahedra are also elements whose volume is to stay positive. Lines are edges of their own, vertices points.
+faces of one cell only. Tetrahedra are also cells whose volume is to stay positive. Lines are edges of their own, vertices points.
 Cells with nodes on their edges are curved, and refused. All frames have the same cells.
 """
 

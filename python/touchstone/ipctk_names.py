@@ -21,7 +21,7 @@ from typing import Tuple
 import numpy as np
 import numpy.typing as npt
 
-from ._input import Kind, as_doubles, checked
+from ._input import ContactName, as_doubles, checked
 from .batch import distance, solve
 
 __all__ = ["edge_edge_ccd", "point_edge_ccd", "point_point_ccd", "point_triangle_ccd"]
@@ -31,7 +31,7 @@ Point = npt.ArrayLike
 
 @checked
 def _decide(
-    kind: Kind, points: Tuple[Point, ...], min_distance: float, tmax: float, conservative_rescaling: float
+    kind: ContactName, points: Tuple[Point, ...], min_distance: float, tmax: float, conservative_rescaling: float
 ) -> Tuple[bool, float]:
     if not 0.0 <= conservative_rescaling <= 1.0:
         raise ValueError("conservative_rescaling must be in [0, 1]")

@@ -34,7 +34,7 @@ class Queries:
     Attributes
     ----------
     kind : {"vertex_face", "edge_edge", "tetrahedron", "plane_triangle"}
-        The primitives, or the element, which "collides" if it inverts.
+        The primitives, or the cell, which "collides" if it inverts.
     queries : ndarray of shape (N, 8, 3), or (N, degree + 1, 4, 3 or 4) on curves
         Four points at t=0, then at t=1.
     collides : ndarray of bool, shape (N,), or None
@@ -154,7 +154,7 @@ def generate(
     Parameters
     ----------
     kind : {"vertex_face", "edge_edge", "tetrahedron", "plane_triangle"}
-        The primitives, or the element, which "collides" if it inverts.
+        The primitives, or the cell, which "collides" if it inverts.
     family : str, optional
         The name of one of `families`; by default all.
     count : int, optional
@@ -173,7 +173,7 @@ def generate(
     Raises
     ------
     ValueError
-        For an unknown family, a negative number, or a separation of elements.
+        For an unknown family, a negative number, or a separation of cells.
     """
     if min(count, seed) < 0:
         raise ValueError("count and seed must not be negative")
@@ -381,7 +381,7 @@ def judge(
         curves are asked of methods by name; a callable takes straight lines alone.
     kind : {"vertex_face", "edge_edge", "tetrahedron", "plane_triangle"}, optional
         That of the built-in set, by default both about contact; or of files whose path does not tell.
-        An element "collides" if it inverts; its queries have the shape (N, 8, 3), too, and of a
+        A cell "collides" if it inverts; its queries have the shape (N, 8, 3), too, and of a
         triangle in the plane x and y of the first three points count.
     batch : bool, optional
         True if the solver takes arrays of shape (N, 8, 3) and returns arrays of shape (N,). N grows from

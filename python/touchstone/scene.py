@@ -19,7 +19,7 @@ _fast: Any = load("_fast")
 Indices = npt.NDArray[np.int32]
 
 
-class PairKind(IntEnum):
+class ContactKind(IntEnum):
     """The primitives of a pair, and the meaning of its two numbers."""
 
     VERTEX_FACE = 0
@@ -28,15 +28,15 @@ class PairKind(IntEnum):
     VERTEX_VERTEX = 3
 
 
-class VolumeKind(IntEnum):
-    """The elements that have a volume, or an area in the plane."""
+class CellKind(IntEnum):
+    """The cells of a mesh, which have a volume, or an area in the plane."""
 
-    TETRAHEDRON = 2
-    PLANE_TRIANGLE = 3
+    TETRAHEDRON = 0
+    PLANE_TRIANGLE = 1
 
 
-class ElementKind(IntEnum):
-    """The elements of a mesh."""
+class PrimitiveKind(IntEnum):
+    """The primitives of a mesh."""
 
     FACE = 0
     EDGE = 1
@@ -104,7 +104,7 @@ class LineSearchLimit:
     Attributes
     ----------
     status : {"whole", "limited", "in_contact", "too_small", "inverted"}
-        The reason for the step size; "inverted": an element is flat or inverted at the start.
+        The reason for the step size; "inverted": a cell is flat or inverted at the start.
     step_size : float
         The step size that is allowed, rounded down.
     distance_lower, distance_upper : float
@@ -112,7 +112,7 @@ class LineSearchLimit:
     pairs : structured ndarray
         The pairs that limit the step, or are in contact, as `Step.collisions` has them.
     inversions : structured ndarray
-        The elements that limit the step, as `Step.inversions` has them.
+        The cells that limit the step, as `Step.inversions` has them.
     """
 
     status: Literal["whole", "limited", "in_contact", "too_small", "inverted"]
@@ -181,8 +181,8 @@ def _as_thickness(
 class Step:
     """A step of a mesh whose vertices move from t=0 to t=1, on straight lines or on Bézier curves.
 
-    Two primitives collide if they have a common point at some time, or come within the separation. An
-    element inverts if its volume is 0 or negative at some time.
+    Two primitives collide if they have a common point at some time, or come within the separation. A
+    cell inverts if its volume is 0 or negative at some time.
     Answers are exact, and the same for any number of threads. Vertices alone collide with nothing: a
     step without faces, edges and points is free.
 
@@ -191,7 +191,7 @@ class Step:
     before, after : array_like of shape (n, 3)
         The vertices at t=0 and at t=1; copied. On curves, `before` alone: the control points of each vertex
         from t=0 to t=1, of shape (n, degree + 1, 3), or (n, degree + 1, 4) with positive weights last. On
-        curves, elements cannot invert, and methods about distances, contacts, step sizes and proofs raise
+        curves, cells cannot invert, and methods about distances, contacts, step sizes and proofs raise
         ValueError.
     faces : array_like of int, shape (f, 3), optional
         The faces by the numbers of their vertices.
@@ -204,10 +204,10 @@ class Step:
     apart : array_like of int, shape (k, 2), optional
         Pairs of groups that cannot collide, each the group of a vertex; the same group twice: not within it.
     tetrahedra : array_like of int, shape (m, 4), optional
-        Elements a, b, c, d whose volume, with the sign of det(b - a, c - a, d - a), is to stay positive.
+        Cells a, b, c, d whose volume, with the sign of det(b - a, c - a, d - a), is to stay positive.
         They do not collide.
     plane_triangles : array_like of int, shape (k, 3), optional
-        Elements whose area in the plane of x and y, positive if counterclockwise, is to stay so. They
+        Cells whose area in the plane of x and y, positive if counterclockwise, is to stay so. They
         do not collide.
     radii : array_like of float, shape (g,), optional
         The radius of each group. Primitives are in contact within the separation and the greatest sum
@@ -354,14 +354,14 @@ class Step:
         """All edges in the search, of shape (e, 2)."""
         return self._step.edges()
 
-    def query(self, kind: PairKind | int, pair: npt.ArrayLike) -> Doubles:
+    def query(self, kind: ContactKind | int, pair: npt.ArrayLike) -> Doubles:
         """Return the query of a pair: an array of shape (8, 3).
 
         A vertex and an edge are the query of the vertex and the face (e0, e1, e0), two vertices that
         of the first one and the face (w, w, w).
         """
         first, second = as_indices(pair, "pair", None).tolist()
-        return self._step.query(int(PairKind(kind)), first, second)
+        return self._step.query(int(ContactKind(kind)), first, second)
 
     def earliest(self) -> Impact | None:
         """Return the earliest impact; None if the step is free."""
@@ -374,7 +374,7 @@ class Step:
         Returns
         -------
         structured ndarray
-            With the fields `kind` (see `PairKind`), `pair` (two numbers), `toi_lower`, `toi_upper`,
+            With the fields `kind` (see `ContactKind`), `pair` (two numbers), `toi_lower`, `toi_upper`,
             `u` and `v`. The order depends only on the step.
         """
         return self._search(self._step.collisions)
@@ -419,19 +419,19 @@ class Step:
         return self._search(lambda progress: self._step.contacts(collisions, progress))
 
     def inversions(self) -> npt.NDArray[np.void]:
-        """Return all elements that invert, an item each, tetrahedra first.
+        """Return all cells that invert, an item each, tetrahedra first.
 
         Returns
         -------
         structured ndarray
-            With the fields `kind` (see `VolumeKind`), `element` (its number among those of its kind),
+            With the fields `kind` (see `CellKind`), `cell` (its number among those of its kind),
             `start` (the sign of its volume at t=0: 1, 0 or -1), `toi_lower` and `toi_upper`; both are
             0 if it is flat or inverted at t=0.
         """
         return self._search(self._step.inversions)
 
     def starts_free(self) -> bool:
-        """Return True if at t=0 the mesh does not intersect itself, and no element is flat or inverted."""
+        """Return True if at t=0 the mesh does not intersect itself, and no cell is flat or inverted."""
         return self._search(self._step.starts_free)
 
     def is_free(self) -> bool:
@@ -470,7 +470,7 @@ class Step:
     ) -> LineSearchLimit:
         """Return the step size up to which all primitives stay p times as far apart as at the start.
 
-        Up to it, all elements keep more than a part of their volumes, too.
+        Up to it, all cells keep more than a part of their volumes, too.
 
         Parameters
         ----------
@@ -481,8 +481,8 @@ class Step:
         of_pair : bool, optional
             False: the reference is the least distance of the scene. True: each pair's own.
         kept_volume : float, optional
-            The part of its volume at t=0 of which an element must keep more, in [0, 1). With 0, no
-            element inverts.
+            The part of its volume at t=0 of which a cell must keep more, in [0, 1). With 0, no
+            cell inverts.
         """
         status, size, (lower, upper), pairs, inversions = self._search(
             lambda progress: self._step.line_search_limit(p, norm, of_pair, kept_volume, progress)
@@ -609,7 +609,7 @@ def intersections(
     -------
     structured ndarray
         An item for each pair, in order, with the fields `kind` (see `IntersectionKind`), `elements`
-        (two of `ElementKind`), `numbers` (two, of faces, edges or points) and `place` of shape
+        (two of `PrimitiveKind`), `numbers` (two, of faces, edges or points) and `place` of shape
         (2, 2, 3): for both ends of what they have in common, the same for a point, the lower and the
         upper ends of its coordinates. Of an area it is the least and the greatest corner.
 

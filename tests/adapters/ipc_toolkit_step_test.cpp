@@ -39,7 +39,7 @@ struct Said {
 };
 
 /// The answer about a pair of these points, in two or three dimensions.
-Said ask(const ipc::NarrowPhaseCCD& ccd, fast::PairKind kind, const Query& query,
+Said ask(const ipc::NarrowPhaseCCD& ccd, ContactKind kind, const Query& query,
          double min_distance = 0.0, double tmax = 1.0, Eigen::Index dim = 3) {
   const auto point = [&](std::size_t end, std::size_t i) {
     return ipc::VectorMax3d(point_of(query, end, i).head(dim));
@@ -48,19 +48,19 @@ Said ask(const ipc::NarrowPhaseCCD& ccd, fast::PairKind kind, const Query& query
   for (std::size_t i = 0; i < p.size(); ++i) p[i] = point(0, i), q[i] = point(1, i);
   Said said;
   switch (kind) {
-    case fast::PairKind::vertex_face:
+    case ContactKind::vertex_face:
       said.collision = ccd.point_triangle_ccd(p[0], p[1], p[2], p[3], q[0], q[1], q[2], q[3],
                                               said.toi, min_distance, tmax);
       break;
-    case fast::PairKind::edge_edge:
+    case ContactKind::edge_edge:
       said.collision = ccd.edge_edge_ccd(p[0], p[1], p[2], p[3], q[0], q[1], q[2], q[3], said.toi,
                                          min_distance, tmax);
       break;
-    case fast::PairKind::vertex_edge:
+    case ContactKind::vertex_edge:
       said.collision =
           ccd.point_edge_ccd(p[0], p[1], p[2], q[0], q[1], q[2], said.toi, min_distance, tmax);
       break;
-    case fast::PairKind::vertex_vertex:
+    case ContactKind::vertex_vertex:
       said.collision = ccd.point_point_ccd(p[0], p[1], q[0], q[1], said.toi, min_distance, tmax);
   }
   return said;
@@ -69,7 +69,7 @@ Said ask(const ipc::NarrowPhaseCCD& ccd, fast::PairKind kind, const Query& query
 /// The same about a vertex and a face.
 Said ask_face(const ipc::NarrowPhaseCCD& ccd, const Query& query, double min_distance = 0.0,
               double tmax = 1.0) {
-  return ask(ccd, fast::PairKind::vertex_face, query, min_distance, tmax);
+  return ask(ccd, ContactKind::vertex_face, query, min_distance, tmax);
 }
 
 /// A vertex that falls by two from a height onto a face.
@@ -228,13 +228,12 @@ bool can_collide(const ipc::CollisionMesh& mesh, const Vertices& first, const Ve
 tests::Pairs pairs_of(const Scene& scene, const tests::AllPairs& all) {
   if (scene.mesh.dim() == 3) return all.pairs();
   tests::Pairs result;
-  std::ranges::copy_if(all.pairs(), std::back_inserter(result), [](const auto& pair) {
-    return pair.first == fast::PairKind::vertex_vertex;
-  });
+  std::ranges::copy_if(all.pairs(), std::back_inserter(result),
+                       [](const auto& pair) { return pair.first == ContactKind::vertex_vertex; });
   for (std::int32_t i = 0; i < scene.start.rows(); ++i) {
     for (std::int32_t k = 0; k < scene.mesh.edges().rows(); ++k) {
       if (!can_collide(scene.mesh, {i}, of(scene.mesh.edges().row(k)))) continue;
-      result.push_back({fast::PairKind::vertex_edge, {i, k}});
+      result.push_back({ContactKind::vertex_edge, {i, k}});
     }
   }
   return result;
@@ -260,7 +259,7 @@ std::optional<exact::AlgebraicNumber> first_by_oracle(const Scene& scene, double
   std::optional<exact::AlgebraicNumber> first;
   const tests::AllPairs all(scene.step);
   for (const tests::NumberedPair& pair : pairs_of(scene, all)) {
-    const exact::Decision decision = exact::decide(fast::Step::kind_of(pair.first), all.query(pair),
+    const exact::Decision decision = exact::decide(decided_as(pair.first), all.query(pair),
                                                    {.distance = min_distance, .norm = Norm::l2});
     if (decision.collides() && (!first || *decision.toi <= *first)) first = decision.toi;
   }
@@ -346,7 +345,7 @@ TEST_P(IpcStep, FindsIntersectionsWhereTheOracleDoes) {
           }
         }
         point_of(query, 1, 0) = scene.step.start.row(edge[1]).transpose();
-        expected = expected || exact::decide(Kind::vertex_face, query).collides();
+        expected = expected || exact::decide(ContactKind::vertex_face, query).collides();
       }
     }
     EXPECT_EQ(adapters::has_intersections(mesh, scene.start), expected);

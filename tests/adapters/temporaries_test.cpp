@@ -117,7 +117,7 @@ void expect_contact(const std::optional<fast::StepImpact>& impact) {
   EXPECT_LE(impact->toi_lower, 0.25);
   EXPECT_GE(impact->toi_upper, 0.25);
   ASSERT_EQ(impact->pairs.size(), 1U);
-  EXPECT_EQ(impact->pairs[0].kind, fast::PairKind::vertex_face);
+  EXPECT_EQ(impact->pairs[0].kind, ContactKind::vertex_face);
   EXPECT_EQ(impact->pairs[0].pair, (fast::IndexPair{3, 0}));
 }
 
@@ -153,7 +153,7 @@ TEST(Temporaries, AreNotNeededByAStepOnCurves) {
 
 TEST(Temporaries, AreNotNeededByAnswers) {
   const auto query = [] {
-    return Step(vertices(), mesh()).query_of(fast::PairKind::vertex_face, {3, 0});
+    return Step(vertices(), mesh()).query_of(ContactKind::vertex_face, {3, 0});
   };
   const auto found = fast::intersections(places(1.5), mesh(), {.groups = of_groups().groups});
   const fast::MeshDefects defects = fast::mesh_defects(places(0), {.points = {0, 1, 2, 3}});
@@ -164,9 +164,10 @@ TEST(Temporaries, AreNotNeededByAnswers) {
                               point(1, 1, -2), point(0, 0, 0), point(4, 0, 0), point(0, 4, 0));
   const CurvedQuery curved = to_curved(query());
   const exact::Decision decision =
-      exact::decide(Queries(Kind::vertex_face, std::vector<Query>{query()}), 0);
-  const exact::Certificate proof = exact::prove(
-      Kind::vertex_face, query(), exact::decide(Kind::vertex_face, query()), exact::ProveOptions{});
+      exact::decide(Queries(ContactKind::vertex_face, std::vector<Query>{query()}), 0);
+  const exact::Certificate proof =
+      exact::prove(ContactKind::vertex_face, query(),
+                   exact::decide(ContactKind::vertex_face, query()), exact::ProveOptions{});
   const exact::AlgebraicNumber third =
       exact::roots_in_unit_interval(exact::Polynomial(std::vector<exact::Integer>{-1, 3})).at(0);
   write_elsewhere();
@@ -175,7 +176,7 @@ TEST(Temporaries, AreNotNeededByAnswers) {
   ASSERT_FALSE(active.empty());
   EXPECT_EQ(active[0].normal.z(), 1.0);
   EXPECT_EQ(solved.u, 0.25);
-  EXPECT_EQ(exact::decide(Kind::vertex_face, curved).toi, third);
+  EXPECT_EQ(exact::decide(ContactKind::vertex_face, curved).toi, third);
   EXPECT_EQ(decision.toi, third);
   EXPECT_TRUE(proof.contact);
 }

@@ -21,8 +21,8 @@
 
 #include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/random.hpp"
-#include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/step.hpp"
 
 namespace touchstone::adapters::touchstone_test {
@@ -45,15 +45,15 @@ std::vector<Query> random_queries(std::size_t count) {
 TEST(CInterface, SolvesAsTheSolver) {
   std::vector<Query> queries = random_queries(2000);
   queries[7].coordinates[3] = nan;
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     TouchstoneOptions options = touchstone_default_options();
     options.min_separation = 0.25;
     options.t_max = 0.75;
     std::vector<TouchstoneImpact> impacts(queries.size());
-    ASSERT_EQ(
-        touchstone_solve(kind == Kind::vertex_face ? TOUCHSTONE_VERTEX_FACE : TOUCHSTONE_EDGE_EDGE,
-                         queries.size(), queries[0].coordinates.data(), &options, impacts.data()),
-        0)
+    ASSERT_EQ(touchstone_solve(
+                  kind == ContactKind::vertex_face ? TOUCHSTONE_VERTEX_FACE : TOUCHSTONE_EDGE_EDGE,
+                  queries.size(), queries[0].coordinates.data(), &options, impacts.data()),
+              0)
         << touchstone_last_error();
     std::size_t colliding = 0;
     for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -107,7 +107,7 @@ std::unique_ptr<TouchstoneStep, decltype(&touchstone_step_free)> step_of(
 
 TEST(CInterface, MeasuresDistances) {
   const std::vector<Query> queries = random_queries(1000);
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     for (const Norm norm : {Norm::linf, Norm::l2}) {
       std::vector<fast::Distance> expected(queries.size());
       fast::distances(kind, queries, 0.375, norm, expected);
@@ -128,28 +128,30 @@ TEST(CInterface, MeasuresDistances) {
 TEST(CInterface, DecidesInversions) {
   std::vector<Query> queries = random_queries(1000);
   queries[7].coordinates[5] = std::numeric_limits<double>::quiet_NaN();
-  for (const auto& [kind, code] : {std::pair(Kind::tetrahedron, TOUCHSTONE_TETRAHEDRON),
-                                   std::pair(Kind::plane_triangle, TOUCHSTONE_PLANE_TRIANGLE)}) {
-    std::vector<fast::CertifiedResult> expected(queries.size());
-    fast::solve({kind, queries}, expected);
-    std::vector<TouchstoneImpact> found(queries.size());
-    ASSERT_EQ(touchstone_solve(code, queries.size(), queries[0].coordinates.data(), nullptr,
-                               found.data()),
+  for (const auto& [kind, code] :
+       {std::pair(CellKind::tetrahedron, TOUCHSTONE_TETRAHEDRON),
+        std::pair(CellKind::plane_triangle, TOUCHSTONE_PLANE_TRIANGLE)}) {
+    std::vector<fast::Inversion> expected(queries.size());
+    fast::inversions({kind, queries}, expected);
+    std::vector<TouchstoneInversion> found(queries.size());
+    ASSERT_EQ(touchstone_inversions(code, queries.size(), queries[0].coordinates.data(), nullptr,
+                                    found.data()),
               TOUCHSTONE_OK)
         << touchstone_last_error();
     for (std::size_t i = 0; i < queries.size(); ++i) {
       ASSERT_EQ(found[i].verdict, static_cast<std::int32_t>(expected[i].verdict));
+      EXPECT_EQ(found[i].start, expected[i].start);
       if (found[i].verdict != TOUCHSTONE_YES) continue;
       EXPECT_EQ(found[i].toi_lower, expected[i].toi_lower);
       EXPECT_EQ(found[i].toi_upper, expected[i].toi_upper);
     }
     // (That is the z of a point.)
-    EXPECT_EQ(found[7].verdict == TOUCHSTONE_ERROR, kind == Kind::tetrahedron);
+    EXPECT_EQ(found[7].verdict == TOUCHSTONE_ERROR, kind == CellKind::tetrahedron);
   }
 }
 
 fast::StepCollision converted(const TouchstoneCollision& one) {
-  return {static_cast<fast::PairKind>(one.pair.kind),
+  return {static_cast<ContactKind>(one.pair.kind),
           {one.pair.first, one.pair.second},
           one.toi_lower,
           one.toi_upper,
@@ -353,10 +355,11 @@ TEST(CInterface, KeepsElementsFromInverting) {
     mesh.vertices = 4;
     mesh.before = before.data();
     mesh.after = after.data();
-    mesh.tetrahedra = count;
-    mesh.tetrahedron_vertices = tetrahedra.front().data();
-    mesh.plane_triangles = 1;
-    mesh.plane_triangle_vertices = triangles.front().data();
+    const std::array<TouchstoneCells, 2> cells{
+        {{TOUCHSTONE_TETRAHEDRON, count, tetrahedra.front().data()},
+         {TOUCHSTONE_PLANE_TRIANGLE, 1, triangles.front().data()}}};
+    mesh.cell_lists = cells.size();
+    mesh.cells = cells.data();
     const auto owner = step_of(mesh);
     const fast::Step step(std::span<const double>(before), std::span<const double>(after),
                           {.tetrahedra = tetrahedra, .plane_triangles = triangles});
@@ -365,10 +368,10 @@ TEST(CInterface, KeepsElementsFromInverting) {
       ASSERT_EQ(size, expected.size());
       for (std::size_t i = 0; i < size; ++i) {
         EXPECT_EQ(
-            (fast::StepInversion{
-                found[i].kind == TOUCHSTONE_TETRAHEDRON ? Kind::tetrahedron : Kind::plane_triangle,
-                found[i].element, static_cast<std::int8_t>(found[i].start), found[i].toi_lower,
-                found[i].toi_upper}),
+            (fast::StepInversion{found[i].kind == TOUCHSTONE_TETRAHEDRON ? CellKind::tetrahedron
+                                                                         : CellKind::plane_triangle,
+                                 found[i].cell, static_cast<std::int8_t>(found[i].start),
+                                 found[i].toi_lower, found[i].toi_upper}),
             expected[i]);
       }
     };
@@ -468,6 +471,7 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
 
   TouchstoneImpact impact{};
   impact.verdict = 77;
+  TouchstoneInversion inversion{77, 77, 77.0, 77.0};
   TouchstoneDistance distance{77.0, 77.0};
   const TouchstoneCollision none{};
   const TouchstoneCollision *collisions = &none, *before = nullptr;
@@ -487,20 +491,23 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
   contact.has_side = 77;
 
   const std::vector<std::pair<std::string_view, std::function<std::int32_t()>>> calls{
-      {"kind", [&] { return solve(2, x, nullptr, &impact); }},
+      {"kind", [&] { return solve(6, x, nullptr, &impact); }},
+      {"touchstone_inversions", [&] { return solve(4, x, nullptr, &impact); }},
+      {"touchstone_solve", [&] { return touchstone_inversions(3, 1, x, nullptr, &inversion); }},
+      {"min_separation", [&] { return touchstone_inversions(4, 1, x, &distant, &inversion); }},
+      {"inversions is null", [&] { return touchstone_inversions(4, 1, x, nullptr, nullptr); }},
       {"coordinates is null", [&] { return solve(0, nullptr, nullptr, &impact); }},
       {"impacts is null", [&] { return solve(0, x, nullptr, nullptr); }},
       {"norm", [&] { return solve(0, x, &bad_norm, &impact); }},
       {"", [&] { return solve(0, x, &bad_time, &impact); }},
       {"", [&] { return solve(0, x, &bad_distance, &impact); }},
-      {"", [&] { return touchstone_distances(3, 1, x, 0.0, 0, 1, &distance); }},
+      {"", [&] { return touchstone_distances(6, 1, x, 0.0, 0, 1, &distance); }},
       {"", [&] { return touchstone_distances(0, 1, x, 2.0, 0, 1, &distance); }},
       {"", [&] { return touchstone_distances(0, 1, x, 0.0, 2, 1, &distance); }},
       {"", [&] { return touchstone_distances(0, 1, nullptr, 0.0, 0, 1, &distance); }},
       {"", [&] { return touchstone_distances(0, 1, x, 0.0, 0, -1, &distance); }},
       {"", [&] { return touchstone_distances(0, 1, x, 0.0, 0, 1, nullptr); }},
       {"", [&] { return touchstone_distances(4, 1, x, 0.0, 0, 1, &distance); }},
-      {"without a separation", [&] { return solve(4, x, &distant, &impact); }},
       {"step is null", [&] { return touchstone_step_new(&mesh, nullptr, nullptr); }},
       {"count is null", [&] { return touchstone_step_collisions(step, &collisions, nullptr); }},
       {"collisions is null", [&] { return touchstone_step_collisions(step, nullptr, &count); }},
@@ -544,6 +551,7 @@ TEST(CInterface, SaysWhatIsWrongAndWritesNothing) {
   expect_message("vertex 0");
 
   EXPECT_EQ(impact.verdict, 77);
+  EXPECT_EQ(inversion.verdict, 77);
   EXPECT_EQ(distance.lower, 77.0);
   EXPECT_EQ(distance.upper, 77.0);
   EXPECT_EQ(collisions, &none);
@@ -607,12 +615,13 @@ struct LineSearchOptionsOfFirstHeader {
 };
 
 // The layouts of this SOVERSION, on machines of 64 bits. Only what can grow may grow, at its end.
-static_assert(sizeof(MeshOfFirstHeader) == offsetof(TouchstoneMesh, tetrahedra));
+static_assert(sizeof(MeshOfFirstHeader) == offsetof(TouchstoneMesh, cell_lists));
 static_assert(sizeof(TouchstoneOptions) == 40 && offsetof(TouchstoneOptions, max_threads) == 36);
-static_assert(sizeof(TouchstoneMesh) == 208 && offsetof(TouchstoneMesh, control_points) == 200);
+static_assert(sizeof(TouchstoneMesh) == 192 && offsetof(TouchstoneMesh, control_points) == 184);
 static_assert(sizeof(TouchstoneLineSearchOptions) == 24 &&
               offsetof(TouchstoneLineSearchOptions, kept_volume) == 16);
 static_assert(sizeof(TouchstoneImpact) == 40 && offsetof(TouchstoneImpact, v) == 32);
+static_assert(sizeof(TouchstoneInversion) == 24 && sizeof(TouchstoneCells) == 24);
 static_assert(sizeof(TouchstoneDistance) == 16 && sizeof(TouchstonePair) == 12);
 static_assert(sizeof(TouchstoneCollision) == 48 && offsetof(TouchstoneCollision, v) == 40);
 static_assert(sizeof(TouchstoneStepInversion) == 32 &&

@@ -59,8 +59,8 @@ bool knows_numbers() {
 /// A vertex falls through a resting triangle.
 fast::CertifiedResult falls(std::uint64_t one, std::uint64_t minus_two, std::uint64_t four) {
   const double a = from_bits(one), b = from_bits(minus_two), c = from_bits(four);
-  return fast::solve(Kind::vertex_face, {{a, a, a, 0, 0, 0, c, 0, 0, 0, c, 0,  //
-                                          a, a, b, 0, 0, 0, c, 0, 0, 0, c, 0}});
+  return fast::solve(ContactKind::vertex_face, {{a, a, a, 0, 0, 0, c, 0, 0, 0, c, 0,  //
+                                                 a, a, b, 0, 0, 0, c, 0, 0, 0, c, 0}});
 }
 
 bool is_a_third(const fast::CertifiedResult& result) {

@@ -9,7 +9,7 @@ int main() {
   // A vertex falls through a resting triangle: v, f0, f1, f2 at t=0, then at t=1.
   const Query query{{1, 1, 1,  0, 0, 0, 4, 0, 0, 0, 4, 0,  //
                      1, 1, -2, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
-  const exact::Decision verdict = exact::decide(Kind::vertex_face, query);
+  const exact::Decision verdict = exact::decide(ContactKind::vertex_face, query);
   if (!verdict.collides()) return 1;
   const exact::Rational width = exact::power_of_two(-60);
   const exact::ContactParameters at = exact::contact_parameters(verdict, width);

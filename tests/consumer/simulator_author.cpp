@@ -18,8 +18,9 @@ bool answers_single_queries() {
   // A vertex falls through a resting triangle: v, f0, f1, f2 at t=0, then at t=1.
   const Query query{{1, 1, 1,  0, 0, 0, 4, 0, 0, 0, 4, 0,  //
                      1, 1, -2, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
-  const fast::CertifiedResult certified = fast::solve(Kind::vertex_face, query);
-  const fast::TightInclusionResult inclusion = fast::tight_inclusion(Kind::vertex_face, query);
+  const fast::CertifiedResult certified = fast::solve(ContactKind::vertex_face, query);
+  const fast::TightInclusionResult inclusion =
+      fast::tight_inclusion(ContactKind::vertex_face, query);
   const Eigen::Vector3d above(1, 1, 1), below(1, 1, -2), o(0, 0, 0), a(4, 0, 0), b(0, 4, 0);
   const fast::CertifiedResult of_points = fast::solve_vertex_face(above, o, a, b, below, o, a, b);
   return of_points.toi_lower == certified.toi_lower && certified.verdict == fast::Verdict::yes &&

@@ -15,7 +15,7 @@
 
 #include "exact/certificate/separation_intervals.hpp"
 #include "tests/support/certificates.hpp"
-#include "tests/support/inverting_elements.hpp"
+#include "tests/support/inverting_cells.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
@@ -59,7 +59,7 @@ TEST(Prove, KnowsTheTimeAndPlaceOfContact) {
       // t x = y with x = 4 − 3 t and y = 1: 3 t² − 4 t + 1 = 0 at 1/3 and 1.
       {tests::turning_triangle(8, 4, 1, 1), {}, Rational(1, 3), std::nullopt},
       // All points are one; on a triangle that is a segment.
-      {{Kind::vertex_face, Query{}}, {}, 0, SegmentContact{{0, 1}}},
+      {{ContactKind::vertex_face, Query{}}, {}, 0, SegmentContact{{0, 1}}},
       {past(needle, {3, 0, 1}, {3, 0, -3}), {}, Rational(1, 4), SegmentContact{{0, 1}}},
       {falling, {1, Norm::l2}, Rational(1, 2), FaceContact{}},
       {falling, {1, Norm::linf}, Rational(1, 2), AxesContact{}},
@@ -189,7 +189,7 @@ class RoundTrip {
 
 TEST(RoundTrips, OfFamiliesAreAccepted) {
   for (const verify::generate::Family& family : verify::generate::families()) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
       if (!verify::generate::supports(family, kind)) continue;
       RoundTrip trip;
       for (std::size_t i = 0; i < tests::soak_trials(20U, 50U); ++i) {
@@ -207,7 +207,7 @@ TEST(RoundTrips, OfRandomQueriesAreAccepted) {
   tests::Random random(6);
   RoundTrip trip;
   for (std::size_t i = 0; i < tests::soak_trials(1000U, 50U); ++i) {
-    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+    const ContactKind kind = random.coin() ? ContactKind::vertex_face : ContactKind::edge_edge;
     trip.add(
         tests::random_query(random, kind, tests::all_families.at(i % tests::all_families.size())),
         i % 10 < 2);
@@ -254,7 +254,8 @@ TEST(RoundTrips, OfPublicDataAreAccepted) {
     const auto source = verify::data::open_dataset(file);
     while (const auto record = source->next()) {
       if (record->index % stride != 0) continue;
-      trip.add({source->kind(), record->query.straight()}, record->index % (10 * stride) == 0);
+      trip.add({source->kind().contact(), record->query.straight()},
+               record->index % (10 * stride) == 0);
     }
     trip.expect_accepted(file.string());
     queries += trip.queries();
@@ -270,13 +271,13 @@ TEST(Prove, KeepsToTheWidthAskedFor) {
   const int count = tests::soak_trials(150, 200);
   int later = 0, no_collisions = 0;
   for (int i = 0; i < count; ++i) {
-    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+    const ContactKind kind = random.coin() ? ContactKind::vertex_face : ContactKind::edge_edge;
     PosedQuery posed = tests::random_query(
         random, kind, tests::all_families.at(static_cast<std::size_t>(random.between(0, 1))));
     // The first primitive moved away, as almost all would be near from the start.
     const auto axis = static_cast<std::size_t>(random.between(0, 2));
     const double shift = random.coin() ? random.between(2, 5) : 0;
-    for (std::size_t point = 0; point < (kind == Kind::vertex_face ? 1U : 2U); ++point) {
+    for (std::size_t point = 0; point < (kind == ContactKind::vertex_face ? 1U : 2U); ++point) {
       for (const std::size_t end : {0U, 1U}) posed.query.at(end, point, axis) += shift;
     }
     static constexpr std::array values{0.5, 1.0, 1.0, 2.0, 3.0, 1.25, 0x1p-10, 0.0};
@@ -301,40 +302,40 @@ TEST(Prove, KeepsToTheWidthAskedFor) {
 
 // ---- Inversions ---------------------------------------------------------------------------------
 
-/// The certificate of an element, which claims what the oracle says and is accepted.
+/// The certificate of a cell, which claims what the oracle says and is accepted.
 template <class AnyQuery>
 Certificate accepted(const AnyQuery& tetrahedron, const ProveOptions& options = {}) {
-  const Decision decision = decide(Kind::tetrahedron, tetrahedron);
-  const Certificate certificate = prove(Kind::tetrahedron, tetrahedron, decision, options);
+  const auto time = first_inversion(CellKind::tetrahedron, tetrahedron);
+  const Certificate certificate =
+      prove_inversion(CellKind::tetrahedron, tetrahedron, time, options);
   EXPECT_EQ(rejection(certificate), "") << certificate_stream(certificate);
-  EXPECT_EQ(certificate.claim, decision.collides() ? options.collision_claim : Claim::no_collision);
-  EXPECT_EQ(certificate.contact.has_value(), decision.collides());
+  EXPECT_EQ(certificate.claim, time ? options.collision_claim : Claim::no_collision);
+  EXPECT_EQ(certificate.contact.has_value(), time.has_value());
   if (certificate.claim == Claim::time_of_impact && !options.width) {
     // Neighbouring doubles, of which the upper one may be the time; or 0 twice.
-    EXPECT_EQ(certificate.toi.upper, Rational(decision.toi->enclosure().upper));
+    EXPECT_EQ(certificate.toi.upper, Rational(time->enclosure().upper));
     EXPECT_EQ(certificate.toi.lower, Rational(std::nextafter(certificate.toi.upper.get_d(), 0.0)));
   }
   return certificate;
 }
 
-/// Elements of all sorts, half of them degenerate; of products of factors the time is known.
-TEST(ProveInversion, OfAllSortsOfElementsIsAccepted) {
+/// Cells of all sorts, half of them degenerate; of products of factors the time is known.
+TEST(ProveInversion, OfAllSortsOfCellsIsAccepted) {
   tests::Random random(8);
   std::array<int, 3> claims{};
   for (int round = 0; round < tests::soak_trials(2000, 50); ++round) {
-    const Query element = tests::element_of_sort(random, round % tests::sorts_of_elements);
+    const Query cell = tests::cell_of_sort(random, round % tests::sorts_of_cells);
     ProveOptions options;
     if (round % 3 == 0) options.collision_claim = Claim::collision;
     if (round % 5 == 0) options.width = Rational(1, 1000);
-    const Certificate certificate = accepted(element, options);
+    const Certificate certificate = accepted(cell, options);
     ++claims.at(static_cast<std::size_t>(certificate.claim));
   }
   for (const int count : claims) EXPECT_GT(count, tests::trials(200));
   for (int round = 0; round < tests::soak_trials(500, 20); ++round) {
     const tests::KnownInversion known =
         round % 2 == 0 ? tests::product_of_factors(random) : tests::triangle_of_factors(random);
-    const Query& element = known.tetrahedron;
-    const Certificate certificate = accepted(element);
+    const Certificate certificate = accepted(known.tetrahedron);
     ASSERT_EQ(certificate.claim == Claim::time_of_impact, known.numerator >= 0);
     if (known.numerator >= 0) {
       EXPECT_EQ(std::get<Rational>(certificate.contact->time),
@@ -343,37 +344,37 @@ TEST(ProveInversion, OfAllSortsOfElementsIsAccepted) {
   }
 }
 
-/// On curves, too; with the proof of another element one is accepted only where the claim is true
+/// On curves, too; with the proof of another cell one is accepted only where the claim is true
 /// of it.
 TEST(ProveInversion, OfCurvesIsAcceptedAndNoneOfWhatIsFalse) {
   tests::Random random(9);
   std::array<int, 3> claims{};
   int kept = 0, rejected = 0;
   for (int round = 0; round < tests::soak_trials(300, 20); ++round) {
-    CurvedQuery element;
-    for (Trajectory& curve : element) {
+    CurvedQuery cell;
+    for (Trajectory& curve : cell) {
       const int degree = random.between(0, 3);
       for (int j = 0; j <= degree; ++j) {
         for (double& x : curve.control.emplace_back()) x = random.between(-3, 3);
         if (round % 2 == 0) curve.weights.push_back(random.between(1, 3));
       }
     }
-    if (round % 3 == 0) element = to_tetrahedron(Kind::plane_triangle, element);
+    if (round % 3 == 0) cell = to_tetrahedron(CellKind::plane_triangle, cell);
     Certificate certificate = accepted(
-        element, {.collision_claim = round % 4 == 0 ? Claim::collision : Claim::time_of_impact});
+        cell, {.collision_claim = round % 4 == 0 ? Claim::collision : Claim::time_of_impact});
     ++claims.at(static_cast<std::size_t>(certificate.claim));
-    Trajectory& curve = element.at(static_cast<std::size_t>(random.between(0, 3)));
+    Trajectory& curve = cell.at(static_cast<std::size_t>(random.between(0, 3)));
     curve.control.back().at(static_cast<std::size_t>(random.between(0, 2))) +=
         random.coin() ? 1 : -1;
-    certificate.query = element;
+    certificate.query = cell;
     const bool is_kept = rejection(certificate).empty();
     ++(is_kept ? kept : rejected);
     if (!is_kept) continue;
-    const Decision truth = decide(Kind::tetrahedron, element);
-    ASSERT_EQ(truth.collides(), certificate.claim != Claim::no_collision);
+    const auto truth = first_inversion(CellKind::tetrahedron, cell);
+    ASSERT_EQ(truth.has_value(), certificate.claim != Claim::no_collision);
     if (certificate.claim != Claim::time_of_impact) continue;
-    EXPECT_GE(*truth.toi, certificate.toi.lower);
-    EXPECT_LE(*truth.toi, certificate.toi.upper);
+    EXPECT_GE(*truth, certificate.toi.lower);
+    EXPECT_LE(*truth, certificate.toi.upper);
   }
   for (const int count : claims) EXPECT_GT(count, tests::trials(20));
   EXPECT_GT(kept, tests::trials(20));
@@ -383,9 +384,8 @@ TEST(ProveInversion, OfCurvesIsAcceptedAndNoneOfWhatIsFalse) {
 /// The volume is (1 − 3t)² + h², too near to 0 at 1/3 for the checker's bisections.
 TEST(ProveInversion, DividesWhatTheCheckerCannotSee) {
   for (const double h : {0x1p-10, 0x1p-60, 0x1p-200}) {
-    const Query element{
-        {0, 0, 0, 1, h, 0, -h, 1, 0, 0, 0, 1, 0, 0, 0, -2, h, 0, -h, -2, 0, 0, 0, 1}};
-    const Certificate certificate = accepted(element);
+    const Query cell{{0, 0, 0, 1, h, 0, -h, 1, 0, 0, 0, 1, 0, 0, 0, -2, h, 0, -h, -2, 0, 0, 0, 1}};
+    const Certificate certificate = accepted(cell);
     EXPECT_EQ(certificate.subintervals.size(), h < 0x1p-100 ? 3U : 1U);
   }
 }
@@ -393,10 +393,11 @@ TEST(ProveInversion, DividesWhatTheCheckerCannotSee) {
 TEST(ProveInversion, CannotProveAWrongVerdict) {
   tests::Random random(10);
   for (int round = 0; round < tests::trials(100); ++round) {
-    const Query element = tests::product_of_factors(random).tetrahedron;
-    Decision wrong;
-    if (!decide(Kind::tetrahedron, element).collides()) wrong.toi = AlgebraicNumber(Rational(1, 2));
-    EXPECT_THROW(static_cast<void>(prove(Kind::tetrahedron, element, wrong)), std::logic_error);
+    const Query cell = tests::product_of_factors(random).tetrahedron;
+    std::optional<AlgebraicNumber> wrong;
+    if (!first_inversion(CellKind::tetrahedron, cell)) wrong = AlgebraicNumber(Rational(1, 2));
+    EXPECT_THROW(static_cast<void>(prove_inversion(CellKind::tetrahedron, cell, wrong)),
+                 std::logic_error);
   }
 }
 
@@ -421,7 +422,7 @@ TEST(Separate, SaysSoWhereTheLimitsCannotBeKept) {
   }
   // All corners are one point that moves from (−a,1,0) to (2a,1,0): it is nearest at 1/3.
   const Integer far = Integer(1) << 17000U;
-  Motion motion{.kind = Kind::vertex_face, .points = {}, .corners = {}, .corner_count = 3};
+  Motion motion{.kind = ContactKind::vertex_face, .points = {}, .corners = {}, .corner_count = 3};
   for (std::size_t i = 0; i < motion.corner_count; ++i) {
     motion.corners[i][0].c = {Integer(-far), Integer(2 * far)};
     motion.corners[i][1].c = {1, 1};

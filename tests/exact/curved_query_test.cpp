@@ -21,7 +21,9 @@ namespace {
 using tests::Random;
 using Point = std::array<double, 3>;
 
-Kind kind_of(int round) { return round % 2 == 0 ? Kind::vertex_face : Kind::edge_edge; }
+ContactKind kind_of(int round) {
+  return round % 2 == 0 ? ContactKind::vertex_face : ContactKind::edge_edge;
+}
 
 /// Small numbers: many contacts, at ends and sides, and common planes.
 double small(Random& random, int most = 2) { return random.between(-most, most); }
@@ -55,7 +57,7 @@ TEST(CurvedQuery, HasAProofAndNoneOfWhatIsFalse) {
   std::array<int, 3> claims{};
   int rejected = 0, accepted = 0;
   for (int round = 0; round < 1500; ++round) {
-    const Kind kind = kind_of(round);
+    const ContactKind kind = kind_of(round);
     const bool is_high = round % 100 == 0;
     const CurvedQuery query = curved_query(random, is_high          ? 8
                                                    : round % 5 == 0 ? random.between(3, 4)
@@ -105,8 +107,9 @@ CurvedQuery over_a_face(const std::vector<double>& heights) {
 /// Queries of an array are decided and proved as each by itself.
 TEST(CurvedQuery, InAnArray) {
   Random random(377);
-  for (const QueryShape& shape :
-       {QueryShape{.degree = 1}, {.kind = Kind::edge_edge, .degree = 2}, {.is_rational = true}}) {
+  for (const QueryShape& shape : {QueryShape{.degree = 1},
+                                  {.kind = ContactKind::edge_edge, .degree = 2},
+                                  {.is_rational = true}}) {
     std::vector<double> numbers(5 * shape.numbers_of_query());
     for (double& x : numbers) x = random.between(1, 9);
     const Queries queries(shape, numbers);
@@ -133,32 +136,32 @@ TEST(CurvedQuery, AParabolaTouchesInItsVertex) {
   const auto parabola = [](double above) {  // (2t − 1)² + above
     return over_a_face({1 + above, -1 + above, 1 + above});
   };
-  const Decision touching = decide(Kind::vertex_face, parabola(0));
+  const Decision touching = decide(ContactKind::vertex_face, parabola(0));
   ASSERT_TRUE(touching.collides());
   EXPECT_EQ(*touching.toi, Rational(1, 2));
   const ContactParameters place = contact_parameters(touching, Rational(1, 1000));
   EXPECT_EQ(place.u.lower, Rational(1, 4));
   EXPECT_EQ(place.v.upper, Rational(1, 4));
-  EXPECT_FALSE(decide(Kind::vertex_face, parabola(0x1p-50)).collides());
-  const Decision below = decide(Kind::vertex_face, parabola(-0x1p-50));
+  EXPECT_FALSE(decide(ContactKind::vertex_face, parabola(0x1p-50)).collides());
+  const Decision below = decide(ContactKind::vertex_face, parabola(-0x1p-50));
   ASSERT_TRUE(below.collides());
   EXPECT_EQ(*below.toi, Rational(1, 2) - power_of_two(-26));
   for (const Norm norm : {Norm::l2, Norm::linf}) {
-    const Decision near = decide(Kind::vertex_face, parabola(0.25), {0.25, norm});
+    const Decision near = decide(ContactKind::vertex_face, parabola(0.25), {0.25, norm});
     ASSERT_TRUE(near.collides());
     EXPECT_EQ(*near.toi, Rational(1, 2));
     EXPECT_FALSE(
-        decide(Kind::vertex_face, parabola(0.25), {0x1.fffffffffffffp-3, norm}).collides());
+        decide(ContactKind::vertex_face, parabola(0.25), {0x1.fffffffffffffp-3, norm}).collides());
   }
 }
 
 TEST(CurvedQuery, OfDoublesOfAnySizeIsDecided) {
   const double large = std::numeric_limits<double>::max();
   const double least = std::numeric_limits<double>::denorm_min();
-  const Decision found = decide(Kind::vertex_face, over_a_face({large, -large, least}));
+  const Decision found = decide(ContactKind::vertex_face, over_a_face({large, -large, least}));
   ASSERT_TRUE(found.collides());
   EXPECT_LT(*found.toi, Rational(1));
-  EXPECT_FALSE(decide(Kind::vertex_face, over_a_face({least, least, large})).collides());
+  EXPECT_FALSE(decide(ContactKind::vertex_face, over_a_face({least, least, large})).collides());
 }
 
 // The height is (1 − t)² − 2t² over its weights: the time of impact has no factor of the points'.
@@ -170,7 +173,7 @@ TEST(CurvedQuery, TimesDoNotDependOnWeightsOfPoints) {
     curve.weights = {1, weight, 1};
     weight *= 0x1p600;
   }
-  const Decision found = decide(Kind::vertex_face, query);
+  const Decision found = decide(ContactKind::vertex_face, query);
   ASSERT_TRUE(found.collides());
   EXPECT_EQ(found.toi->polynomial(), Polynomial(std::vector<Integer>{-1, 2, 1}));
 }
@@ -179,7 +182,7 @@ TEST(CurvedQuery, ThatIsNotOneIsRefused) {
   const auto decide_with = [](const Trajectory& curve) {
     CurvedQuery query = over_a_face({1, 2, 3});
     query[0] = curve;
-    static_cast<void>(decide(Kind::vertex_face, query));
+    static_cast<void>(decide(ContactKind::vertex_face, query));
   };
   const Point a{1, 1, 1};
   for (const Trajectory& curve :
@@ -196,7 +199,7 @@ TEST(CurvedQuery, ThatIsNotOneIsRefused) {
   }
   EXPECT_NO_THROW(decide_with({{a, a, a}, {1, 2, 1}}));
   EXPECT_THROW(
-      static_cast<void>(decide(Kind::vertex_face, over_a_face({1, 2, 3}), {-1.0, Norm::l2})),
+      static_cast<void>(decide(ContactKind::vertex_face, over_a_face({1, 2, 3}), {-1.0, Norm::l2})),
       std::invalid_argument);
 }
 

@@ -89,13 +89,13 @@ class Definition {
  private:
   z3::expr number(const Rational& x) { return context_.real_val(x.get_str().c_str()); }
 
-  void require_domain(Kind kind) {
+  void require_domain(ContactKind kind) {
     const z3::expr zero = number(0), one = number(1);
     for (const z3::expr& x : {t_, u_, v_}) {
       solver_.add(x >= zero);
       solver_.add(x <= one);
     }
-    if (kind == Kind::vertex_face) solver_.add(u_ + v_ <= one);
+    if (kind == ContactKind::vertex_face) solver_.add(u_ + v_ <= one);
   }
 
   /// Σ_j B_j(t) values_j.
@@ -134,7 +134,7 @@ class Definition {
     const z3::expr one = number(1);
     const auto at = [&](std::size_t point) { return position(posed.query, point, axis); };
     const z3::expr a = at(0), b = at(1), c = at(2), d = at(3);
-    if (posed.kind == Kind::vertex_face) return a - ((one - u_ - v_) * b + u_ * c + v_ * d);
+    if (posed.kind == ContactKind::vertex_face) return a - ((one - u_ - v_) * b + u_ * c + v_ * d);
     return ((one - u_) * a + u_ * b) - ((one - v_) * c + v_ * d);
   }
 
@@ -186,7 +186,7 @@ std::vector<PosedQuery> queries_to_ask(int scale) {
   Random random(99);
   const auto draw = [&](Family family, int count) {
     for (int i = 0; i < count; ++i) {
-      const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
+      const ContactKind kind = i % 2 == 0 ? ContactKind::vertex_face : ContactKind::edge_edge;
       queries.push_back(random_query(random, kind, family));
     }
   };
@@ -202,11 +202,11 @@ enum class Weights : std::uint8_t { none, common, of_primitives };
 
 /// Curves of small whole numbers: many contacts are at boundaries. All points are in a common
 /// plane, or the second primitive rests; general positions take the solver too long.
-PosedCurves small_curves(Random& random, Kind kind, std::size_t degree, Weights weights) {
+PosedCurves small_curves(Random& random, ContactKind kind, std::size_t degree, Weights weights) {
   PosedCurves posed{kind, {}};
   const bool is_flat = random.coin();
   const auto flat_axis = static_cast<std::size_t>(random.between(0, 2));
-  const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+  const std::size_t second = kind == ContactKind::vertex_face ? 1 : 2;
   for (std::size_t k = 0; k <= degree; ++k) {
     const std::array<int, 2> drawn{random.between(1, 3), random.between(1, 3)};
     for (std::size_t point = 0; point < moving_points; ++point) {
@@ -228,7 +228,7 @@ PosedCurves small_curves(Random& random, Kind kind, std::size_t degree, Weights 
 std::vector<PosedCurves> curves_to_ask(int scale) {
   std::vector<PosedCurves> queries;
   for (const auto& family : verify::generate::curved_families()) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
       const auto source =
           verify::generate::open_family(family, kind, 98, static_cast<std::uint64_t>(scale));
       while (const auto record = source->next()) {
@@ -239,7 +239,7 @@ std::vector<PosedCurves> curves_to_ask(int scale) {
   Random random(98);
   const auto draw = [&](std::size_t degree, Weights weights, int count) {
     for (int i = 0; i < count; ++i) {
-      const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
+      const ContactKind kind = i % 2 == 0 ? ContactKind::vertex_face : ContactKind::edge_edge;
       queries.push_back(small_curves(random, kind, degree, weights));
     }
   };
@@ -312,7 +312,7 @@ TEST(OracleSmt, TheSolverWouldFindAContactBeforeAToiThatIsTooLate) {
 TEST(OracleSmt, TheDefinitionOfARationalCurveIsThatOfACircle) {
   const auto at_rest = [](double x, double y, double z) { return Trajectory{{{x, y, z}}, {3.0}}; };
   const Trajectory circle{{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {1, 1, 2}};
-  const PosedCurves touches{Kind::vertex_face,
+  const PosedCurves touches{ContactKind::vertex_face,
                             {circle, at_rest(3, -1, -1), at_rest(-1, 2, -1), at_rest(-1, 2, 5)}};
   PosedCurves misses = touches;
   misses.query[0].control[1][0] -= 0x1p-40;

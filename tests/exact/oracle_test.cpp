@@ -34,6 +34,9 @@
 #include "tests/support/random.hpp"
 #include "tests/support/rows.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/certificate.hpp"
+#include "touchstone/certificate_text.hpp"
+#include "touchstone/curved_query.hpp"
 
 namespace touchstone::exact::oracle_test {
 namespace {
@@ -69,8 +72,8 @@ struct Affine {
   }
 };
 
-std::vector<Affine> domain_sides(Kind kind) {
-  if (kind == Kind::vertex_face) return {{1, 0, 0}, {0, 1, 0}, {-1, -1, 1}};
+std::vector<Affine> domain_sides(ContactKind kind) {
+  if (kind == ContactKind::vertex_face) return {{1, 0, 0}, {0, 1, 0}, {-1, -1, 1}};
   return {{1, 0, 0}, {-1, 0, 1}, {0, 1, 0}, {0, -1, 1}};
 }
 
@@ -91,13 +94,13 @@ bool all_zero(const std::vector<Affine>& rows, const Rational& u, const Rational
   return std::ranges::all_of(rows, [&](const Affine& row) { return sgn(row.at(u, v)) == 0; });
 }
 
-bool in_domain(Kind kind, const Rational& u, const Rational& v) {
+bool in_domain(ContactKind kind, const Rational& u, const Rational& v) {
   const std::vector<Affine> sides = domain_sides(kind);
   return std::ranges::all_of(sides, [&](const Affine& side) { return sgn(side.at(u, v)) >= 0; });
 }
 
 /// True if the line through (u,v) in direction (du,dv) meets the domain.
-bool line_meets_domain(Kind kind, const Rational& u, const Rational& v, const Rational& du,
+bool line_meets_domain(ContactKind kind, const Rational& u, const Rational& v, const Rational& du,
                        const Rational& dv) {
   std::optional<Rational> low, high;
   for (const Affine& side : domain_sides(kind)) {
@@ -145,7 +148,7 @@ Rational greatest_coordinate(const Query& query) {
 }
 
 /// Expects that (u,v) at the exact toi lies in the domain.
-void expect_parameters_in_domain(Kind kind, const Decision& verdict) {
+void expect_parameters_in_domain(ContactKind kind, const Decision& verdict) {
   AlgebraicNumber t = *verdict.toi;
   const auto& [u, v, denominator] = *verdict.contact;
   EXPECT_EQ(t.sign_of(denominator), 1);
@@ -267,7 +270,7 @@ void expect_toi_at(const PosedQuery& posed, const Separation& separation, const 
 
 PosedQuery posed_of(const std::string& row) {
   const tests::QueryRow query(row);
-  PosedQuery posed{kind_from_string(tests::replaced(query.kind, "_", "-")), {}};
+  PosedQuery posed{kind_from_string(tests::replaced(query.kind, "_", "-")).contact(), {}};
   std::istringstream coordinates(tests::joined(query.points, " "));
   for (double& x : posed.query.coordinates) {
     std::string word;
@@ -382,13 +385,51 @@ std::string written(const Decision& verdict) {
 
 /// Threads decide the same queries at once, and copy the same verdicts, of which copies could share
 /// parts.
+/// With their proofs, which are about the vertex and the face.
+TEST(Oracle, DecidesFacesThatHaveShrunkWhateverTheOtherPointsAre) {
+  Random random(41);
+  for (const QueryShape& shape : tests::shrunken_shapes()) {
+    const tests::ShrunkenFaces drawn = tests::shrunken_faces(random, shape, 100);
+    const Queries queries = drawn.queries(), faces = drawn.faces();
+    for (const Separation& separation : {Separation{}, Separation{1.0, Norm::l2}}) {
+      std::size_t count = 0;
+      const std::vector<Decision> all = exact::decide(queries, separation);
+      const std::vector<Certificate> proofs = prove(queries, all);
+      for (std::size_t i = 0; i < queries.size(); ++i) {
+        const Decision truth = exact::decide(faces, i, separation);
+        const std::string text = certificate_stream(prove(faces, i, truth));
+        const CurvedQuery curved = to_curved(queries, i);
+        for (const Decision& one : {all[i], exact::decide(queries, i, separation),
+                                    exact::decide(shape.kind, curved, separation)}) {
+          ASSERT_EQ(one.collides(), truth.collides());
+          if (!one.collides() || separation.distance > 0.0) continue;
+          const auto [u, v] = contact_parameters(one, power_of_two(-60));
+          const auto [expected_u, expected_v] = contact_parameters(truth, power_of_two(-60));
+          ASSERT_TRUE(u.lower == expected_u.lower && u.upper == expected_u.upper);
+          ASSERT_TRUE(v.lower == expected_v.lower && v.upper == expected_v.upper);
+        }
+        ASSERT_EQ(certificate_stream(proofs[i]), text);
+        ASSERT_EQ(certificate_stream(prove(queries, i, all[i])), text);
+        if (shape.is_straight()) {
+          const Query& query = queries.straight()[i];
+          const Decision one = exact::decide(shape.kind, query, separation);
+          ASSERT_EQ(certificate_stream(prove(shape.kind, query, one)), text);
+        }
+        count += truth.collides() ? 1U : 0U;
+      }
+      EXPECT_GT(count, 4U);
+      EXPECT_LT(count, queries.size() - 4);
+    }
+  }
+}
+
 TEST(Oracle, GivesTheSameAnswersInFourThreadsAsInOne) {
   Random random(7);
   std::vector<PosedQuery> queries;
   std::vector<Decision> originals;
   std::vector<std::string> expected;
   while (queries.size() < 2000) {
-    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+    const ContactKind kind = random.coin() ? ContactKind::vertex_face : ContactKind::edge_edge;
     queries.push_back(random_query(random, kind, tests::all_families.at(queries.size() % 4)));
     originals.push_back(decide(queries.back()));
     expected.push_back(written(originals.back()));
@@ -456,7 +497,7 @@ void compare_with_second_way(const PosedQuery& posed, Random& random, Tally& tal
 void compare_family_with_second_way(Family family, int count, Tally& tally) {
   Random random(42 + static_cast<unsigned>(family));
   for (int i = 0; i < count && !testing::Test::HasFailure(); ++i) {
-    const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
+    const ContactKind kind = i % 2 == 0 ? ContactKind::vertex_face : ContactKind::edge_edge;
     compare_with_second_way(random_query(random, kind, family), random, tally);
   }
 }

@@ -69,40 +69,49 @@ TEST(ActiveSet, HasThePointsAndTheNormalOfTheSideThatAPrimitiveComesFrom) {
   const std::optional<Vector3d> many, at_origin(Vector3d::Zero()), in_face({1, 1, 0});
   struct Row {
     Scene scene;
-    PairKind kind;
+    ContactKind kind;
     std::vector<double> distances;
     Vector3d normal;
     std::optional<Vector3d> second;  ///< the point on the second primitive, if there is only one
     bool has_normal = true;
   };
   for (const auto& [scene, kind, distances, normal, second, has_normal] :
-       {Row{point_and_face(1, -2), PairKind::vertex_face, {0.0, 0.25}, {0, 0, 1}, in_face},
-        Row{point_and_face(-1, 2), PairKind::vertex_face, {0.0, 0.25}, {0, 0, -1}, in_face},
+       {Row{point_and_face(1, -2), ContactKind::vertex_face, {0.0, 0.25}, {0, 0, 1}, in_face},
+        Row{point_and_face(-1, 2), ContactKind::vertex_face, {0.0, 0.25}, {0, 0, -1}, in_face},
         Row{point_and_face(-1, 2, {1, 3, 2}),
-            PairKind::vertex_face,
+            ContactKind::vertex_face,
             {0.0, 0.25},
             {0, 0, -1},
             in_face},
-        Row{two_edges(crossed, {0, 0, -2}), PairKind::edge_edge, {0.0, 0.25}, {0, 0, 1}, at_origin},
-        Row{two_edges(parallel, {0, 0, -2}), PairKind::edge_edge, {0.25}, {0, 0, 1}, many},
-        Row{two_edges(slanting, {0, 0, -2}), PairKind::edge_edge, {0.25}, {0, 0, 1}, many},
-        Row{two_edges(slanting, {0, 0, -2}), PairKind::edge_edge, {0.0}, {0, 0, 1}, many, false},
+        Row{two_edges(crossed, {0, 0, -2}),
+            ContactKind::edge_edge,
+            {0.0, 0.25},
+            {0, 0, 1},
+            at_origin},
+        Row{two_edges(parallel, {0, 0, -2}), ContactKind::edge_edge, {0.25}, {0, 0, 1}, many},
+        Row{two_edges(slanting, {0, 0, -2}), ContactKind::edge_edge, {0.25}, {0, 0, 1}, many},
+        Row{two_edges(slanting, {0, 0, -2}), ContactKind::edge_edge, {0.0}, {0, 0, 1}, many, false},
         // Parallel edges in contact: the normal is against the motion, upright on the edge.
-        Row{two_edges(parallel, {0.5, 0, -2}), PairKind::edge_edge, {0.0}, {0, 0, 1}, many, false},
+        Row{two_edges(parallel, {0.5, 0, -2}),
+            ContactKind::edge_edge,
+            {0.0},
+            {0, 0, 1},
+            many,
+            false},
         Row{two_edges(beside, {0.5, -2, -2}),
-            PairKind::edge_edge,
+            ContactKind::edge_edge,
             {0.0},
             {0, root, root},
             many,
             false},
         // The direction of the nearest points.
         Row{falling_point({0, -6, -8}, {{1, 2}}),
-            PairKind::vertex_edge,
+            ContactKind::vertex_edge,
             {0.0, 1.0},
             {0, 0.6, 0.8},
             Vector3d(1, 0, 0)},
         Row{falling_point({-2, -6, -8}, {}),
-            PairKind::vertex_vertex,
+            ContactKind::vertex_vertex,
             {0.0, 1.0},
             Vector3d(1, 3, 4).normalized(),
             at_origin}}) {
@@ -192,7 +201,7 @@ TEST(ActiveSet, HasTheNormalOfAFaceAtTheLeastTime) {
   scene.start.row(0) << 0, 1, 0;
   scene.end.row(0) << 0.75, 1, 1;
   for (const double t : {0x1p-1074, 0x1p-1000, 0x1p-20, 1.0}) {
-    const ActiveContact contact = contact_at(scene.step(), PairKind::vertex_face, {0, 0}, t);
+    const ActiveContact contact = contact_at(scene.step(), ContactKind::vertex_face, {0, 0}, t);
     EXPECT_TRUE(contact.normal.cwiseAbs().isApprox(Vector3d(0.8, 0, 0.6))) << t;
     EXPECT_LT(contact.normal_error, 1e-14) << t;
     EXPECT_FALSE(contact.has_side) << t;
@@ -254,7 +263,7 @@ TEST(ActiveSet, NormalsAndContactsAgreeWithEachOther) {
   for (int round = 0; round < tests::trials(20); ++round) {
     const Scene scene = tests::soup(random, 30, 0.2);
     const Step step = scene.step();
-    std::map<std::pair<PairKind, IndexPair>, Vector3d> normals;
+    std::map<std::pair<ContactKind, IndexPair>, Vector3d> normals;
     for (const ActiveContact& one : active_set(step, {.distance = eta, .norm = Norm::l2})) {
       normals[{one.kind, one.pair}] = one.normal;
       const Vector3d between = one.first - one.second;

@@ -51,7 +51,7 @@ double expression(const BoxProblem& problem, const Box& box, std::size_t axis, s
   const std::array<double, 8>& x = problem.coordinates[axis];
   const std::size_t late = corner / 4, far_u = corner / 2 % 2, far_v = corner % 2;
   const double t = box.ends[late], u = box.ends[2 + far_u], v = box.ends[4 + far_v];
-  if (problem.kind == Kind::edge_edge) {
+  if (problem.kind == ContactKind::edge_edge) {
     return filters::EdgeEdge::evaluate<double>(x, {1.0 - t, t, 1.0 - u, u, 1.0 - v, v});
   }
   return filters::VertexFace::evaluate<double>(x, {1.0 - t, t, 1.0 - u - v, u, v});
@@ -95,7 +95,7 @@ TEST_P(EachKernel, ComputesTheExpressionsBitForBitAndTestsTheBoxOfItsCorners) {
   int rejections = 0, insides = 0;
   for (int i = 0; i < 20000; ++i) {
     BoxProblem problem;
-    problem.kind = random.coin() ? Kind::edge_edge : Kind::vertex_face;
+    problem.kind = random.coin() ? ContactKind::edge_edge : ContactKind::vertex_face;
     const Query query = random_query(random);
     const Box box = random_box(random, kernel.digits);
     static_cast<void>(kernel.load(query, problem));

@@ -85,16 +85,17 @@ TEST_P(BroadPhaseOn, FindsExactlyAllPairsWithinTheSeparation) {
        {0.0, 0.125, 0.1, 5 * tiniest, 1e-16, GetParam().separation, 1e308, greatest}) {
     for (const bool is_large : {false, false, false, true}) {
       const Scene scene = scene_of(random, GetParam(), is_large);
-      std::map<PairKind, Pairs> near;
+      std::map<ContactKind, Pairs> near;
       for (const tests::AllPairs all(scene); const tests::NumberedPair& pair : all.pairs()) {
         const bool is_near = all.are_near(pair, separation);
         if (is_near) near[pair.first].push_back(pair.second);
         ++(is_near ? found : others);
       }
       const BroadPhaseOptions options{.separation = {.distance = separation}};
-      EXPECT_EQ(found_vertex_face(scene, options), sorted(near[PairKind::vertex_face]))
+      EXPECT_EQ(found_vertex_face(scene, options), sorted(near[ContactKind::vertex_face]))
           << separation;
-      EXPECT_EQ(found_edge_edge(scene, options), sorted(near[PairKind::edge_edge])) << separation;
+      EXPECT_EQ(found_edge_edge(scene, options), sorted(near[ContactKind::edge_edge]))
+          << separation;
     }
   }
   EXPECT_GT(found, 100U);

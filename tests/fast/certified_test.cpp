@@ -6,12 +6,19 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+#include "touchstone/contacts.hpp"
+#include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::fast::certified_test {
 namespace {
@@ -62,13 +69,13 @@ TEST(Certified, WhatCrossesThePlaneNearAnEdgeIsDecidedInFloatingPoint) {
   for (const double inside : {0x1p-8, 0x1p-12, 0x1p-20, 0x1p-28}) {
     for (const double place : {inside, -inside}) {
       const Query query = beside_edge(place);
-      const CertifiedResult result = fast::solve(Kind::vertex_face, query);
+      const CertifiedResult result = fast::solve(ContactKind::vertex_face, query);
       EXPECT_FALSE(result.is_exact) << place;
       EXPECT_EQ(result.verdict, place > 0.0 ? Verdict::yes : Verdict::no) << place;
-      EXPECT_FALSE(fault(Kind::vertex_face, query, result)) << place;
+      EXPECT_FALSE(fault(ContactKind::vertex_face, query, result)) << place;
     }
   }
-  EXPECT_TRUE(fast::solve(Kind::vertex_face, beside_edge(0x1p-50)).is_exact);
+  EXPECT_TRUE(fast::solve(ContactKind::vertex_face, beside_edge(0x1p-50)).is_exact);
 }
 
 /// Contact at t_max counts, though the enclosure ends beyond it (certified.hpp).
@@ -87,12 +94,12 @@ TEST(Certified, TheUpperEndMayLieBeyondTMax) {
 
 TEST(Certified, CoordinatesThatAreNotFiniteAreAnErrorOfTheirQueryAlone) {
   for (const Separation& separation : separations) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
       for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
         for (std::size_t place = 0; place < 24; ++place) {
           // One query that any axis separates, and one that collides.
           for (const double height : {5.0, -1.0}) {
-            std::vector<Query> queries(3, kind == Kind::vertex_face
+            std::vector<Query> queries(3, kind == ContactKind::vertex_face
                                               ? over_triangle(1, 1, 7, height).query
                                               : over_edge(1, 1, 7, height).query);
             queries[1].coordinates.at(place) = bad;
@@ -106,6 +113,17 @@ TEST(Certified, CoordinatesThatAreNotFiniteAreAnErrorOfTheirQueryAlone) {
       }
     }
   }
+}
+
+using Bits = std::array<std::uint64_t, 4>;
+std::tuple<Verdict, bool, Bits> bits_of(const CertifiedResult& x) {
+  return {x.verdict, x.is_exact,
+          std::bit_cast<Bits>(std::array{x.toi_lower, x.toi_upper, x.u, x.v})};
+}
+std::tuple<Verdict, std::int64_t, std::array<std::uint64_t, 2>> bits_of(
+    const TightInclusionResult& x) {
+  return {x.verdict, x.checks,
+          std::bit_cast<std::array<std::uint64_t, 2>>(std::array{x.toi, x.tolerance})};
 }
 
 // ---- Points and edges ---------------------------------------------------------------------------
@@ -132,6 +150,57 @@ TEST(PrimitivePairs, AreTheirDegenerateQueriesWithTheSameOptions) {
         expect_same(solve_vertex_vertex(p, a, q, a, options), a, 0.0);
       }
     }
+  }
+}
+
+/// The same bits as of a vertex and a face, alone, in batches, and on curves.
+TEST(PrimitivePairs, AreFacesThatHaveShrunkWhateverTheOtherPointsAre) {
+  tests::Random random(12);
+  for (const QueryShape& shape : tests::shrunken_shapes()) {
+    const tests::ShrunkenFaces drawn = tests::shrunken_faces(random, shape, 2000);
+    const Queries queries = drawn.queries(), faces = drawn.faces();
+    std::vector<CertifiedResult> results(queries.size()), expected(queries.size());
+    std::vector<TightInclusionResult> boxes(queries.size()), boxes_of_faces(queries.size());
+    for (const double distance : {0.0, 0.5}) {
+      const CertifiedOptions options{.separation = {.distance = distance}};
+      const TightInclusionOptions box_options{.max_checks = 1000,
+                                              .separation = {.distance = distance}};
+      fast::solve(queries, results, options);
+      fast::solve(faces, expected, options);
+      tight_inclusion(queries, boxes, box_options);
+      tight_inclusion(faces, boxes_of_faces, box_options);
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < queries.size(); ++i) {
+        ASSERT_EQ(bits_of(results[i]), bits_of(expected[i]));
+        ASSERT_EQ(bits_of(boxes[i]), bits_of(boxes_of_faces[i]));
+        count += expected[i].verdict == Verdict::yes ? 1U : 0U;
+        if (!shape.is_straight()) continue;
+        const Query& query = queries.straight()[i];
+        ASSERT_EQ(bits_of(fast::solve(shape.kind, query, options)), bits_of(expected[i]));
+        ASSERT_EQ(bits_of(tight_inclusion(shape.kind, query, box_options)),
+                  bits_of(boxes_of_faces[i]));
+      }
+      EXPECT_GT(count, 20U);
+      EXPECT_LT(count, queries.size() - 20);
+    }
+    if (!shape.is_straight()) continue;
+    std::vector<Distance> apart(queries.size()), apart_of_faces(queries.size());
+    std::size_t kept = 0;
+    for (const Norm norm : {Norm::l2, Norm::linf}) {
+      distances(shape.kind, queries.straight(), 0.375, norm, apart);
+      distances(ContactKind::vertex_face, faces.straight(), 0.375, norm, apart_of_faces);
+      EXPECT_EQ(apart, apart_of_faces);
+      for (std::size_t i = 0; i < queries.size(); ++i) {
+        const Query &query = queries.straight()[i], &face = faces.straight()[i];
+        ASSERT_EQ(distance(shape.kind, query, 0.375, norm), apart_of_faces[i]);
+        const KeptDistance part{.part = 0.1, .norm = norm};
+        const bool is_kept = keeps_distance(shape.kind, query, 0.5, part);
+        ASSERT_EQ(is_kept, keeps_distance(ContactKind::vertex_face, face, 0.5, part));
+        kept += is_kept ? 1U : 0U;
+      }
+    }
+    EXPECT_GT(kept, 20U);
+    EXPECT_LT(kept, 2 * queries.size() - 20);
   }
 }
 

@@ -20,8 +20,8 @@ namespace {
 using Lanes = ScalarLanes;
 
 using Point = Eigen::Vector3d;
-template <Kind kind>
-using Polygon = std::array<Point, kind == Kind::vertex_face ? 3 : 4>;
+template <ContactKind kind>
+using Polygon = std::array<Point, kind == ContactKind::vertex_face ? 3 : 4>;
 
 /// The found direction and point, in plain numbers.
 struct Found {
@@ -30,7 +30,7 @@ struct Found {
   double v;
 };
 
-template <Kind kind, Norm norm>
+template <ContactKind kind, Norm norm>
 Found nearest(const Polygon<kind>& polygon) {
   typename NearestPoint<Lanes, kind, norm>::Corners w;
   for (std::size_t i = 0; i < w.size(); ++i) {
@@ -42,7 +42,7 @@ Found nearest(const Polygon<kind>& polygon) {
   return {{point.direction[0].x, point.direction[1].x, point.direction[2].x}, point.u.x, point.v.x};
 }
 
-template <Kind kind>
+template <ContactKind kind>
 Point point_at(const Polygon<kind>& w, double u, double v) {
   return w[0] + u * (w[1] - w[0]) + v * (w.back() - w[0]);
 }
@@ -57,7 +57,7 @@ double dual_length(Norm norm, const Point& x) {
 
 /// The distance that the direction separates: at most the true distance, and equal to it for the
 /// best direction.
-template <Kind kind>
+template <ContactKind kind>
 double separation(const Polygon<kind>& polygon, const Point& direction) {
   double least = 1e300;
   for (const Point& w : polygon) least = std::min(least, direction.dot(w));
@@ -66,14 +66,14 @@ double separation(const Polygon<kind>& polygon, const Point& direction) {
 
 /// Expects, for a polygon away from the origin, that the direction and the point prove the same
 /// distance from both sides.
-template <Kind kind, Norm norm>
+template <ContactKind kind, Norm norm>
 void expect_distance(const Polygon<kind>& polygon, double tolerance) {
   const Found found = nearest<kind, norm>(polygon);
   EXPECT_LE(dual_length(norm, found.direction), unit_length<double>);
   EXPECT_GE(dual_length(norm, found.direction), 1.0 - 1e-12);
   const double least = 0.0 - 1e-12, most = 1.0 + 1e-12;
   EXPECT_TRUE(found.u >= least && found.v >= least && found.u <= most && found.v <= most);
-  if (kind == Kind::vertex_face) {
+  if (kind == ContactKind::vertex_face) {
     EXPECT_LE(found.u + found.v, most);
   }
   const double below = separation<kind>(polygon, found.direction);
@@ -82,7 +82,7 @@ void expect_distance(const Polygon<kind>& polygon, double tolerance) {
   EXPECT_NEAR(below, above, tolerance);
 }
 
-template <Kind kind>
+template <ContactKind kind>
 Polygon<kind> random_polygon(tests::Random& random) {
   const auto vector = [&](double size) {
     return Point{random.uniform(-size, size), random.uniform(-size, size),
@@ -92,11 +92,11 @@ Polygon<kind> random_polygon(tests::Random& random) {
   // An offset that mostly moves the polygon off the origin.
   const Point offset = vector(2);
   for (std::size_t i = 0; i < 3; ++i) w[i] = offset + vector(1);
-  if constexpr (kind == Kind::edge_edge) w[3] = w[0] + w[2] - w[1];
+  if constexpr (kind == ContactKind::edge_edge) w[3] = w[0] + w[2] - w[1];
   return w;
 }
 
-template <Kind kind, Norm norm>
+template <ContactKind kind, Norm norm>
 void expect_distances_of_random_polygons() {
   tests::Random random(3);
   int apart = 0;
@@ -111,33 +111,34 @@ void expect_distances_of_random_polygons() {
 }
 
 TEST(NearestPoint, DirectionAndPointProveTheSameDistance) {
-  expect_distances_of_random_polygons<Kind::vertex_face, Norm::l2>();
-  expect_distances_of_random_polygons<Kind::vertex_face, Norm::linf>();
-  expect_distances_of_random_polygons<Kind::edge_edge, Norm::l2>();
-  expect_distances_of_random_polygons<Kind::edge_edge, Norm::linf>();
+  expect_distances_of_random_polygons<ContactKind::vertex_face, Norm::l2>();
+  expect_distances_of_random_polygons<ContactKind::vertex_face, Norm::linf>();
+  expect_distances_of_random_polygons<ContactKind::edge_edge, Norm::l2>();
+  expect_distances_of_random_polygons<ContactKind::edge_edge, Norm::linf>();
 }
 
 /// Points and segments; and a side that passes the origin at 1e-9: along a direction tilted by
 /// rounding its far ends would come nearer.
 TEST(NearestPoint, OfPointsSegmentsAndShortDistancesIsFoundToo) {
-  const Polygon<Kind::vertex_face> point{{{1, 2, 2}, {1, 2, 2}, {1, 2, 2}}};
-  expect_distance<Kind::vertex_face, Norm::l2>(point, 1e-14);
-  expect_distance<Kind::vertex_face, Norm::linf>(point, 1e-14);
-  const Polygon<Kind::edge_edge> segment{{{1, 2, 3}, {2, -1, 3}, {1, 2, 3}, {0, 5, 3}}};
-  expect_distance<Kind::edge_edge, Norm::l2>(segment, 1e-12);
-  expect_distance<Kind::edge_edge, Norm::linf>(segment, 1e-12);
-  const Polygon<Kind::edge_edge> beside{
+  const Polygon<ContactKind::vertex_face> point{{{1, 2, 2}, {1, 2, 2}, {1, 2, 2}}};
+  expect_distance<ContactKind::vertex_face, Norm::l2>(point, 1e-14);
+  expect_distance<ContactKind::vertex_face, Norm::linf>(point, 1e-14);
+  const Polygon<ContactKind::edge_edge> segment{{{1, 2, 3}, {2, -1, 3}, {1, 2, 3}, {0, 5, 3}}};
+  expect_distance<ContactKind::edge_edge, Norm::l2>(segment, 1e-12);
+  expect_distance<ContactKind::edge_edge, Norm::linf>(segment, 1e-12);
+  const Polygon<ContactKind::edge_edge> beside{
       {{-1.0 / 3, 1e-9, 0.1}, {2.0 / 3, 1e-9, -0.2}, {2.0 / 3, 1, -0.2}, {-1.0 / 3, 1, 0.1}}};
-  expect_distance<Kind::edge_edge, Norm::l2>(beside, 1e-15);
+  expect_distance<ContactKind::edge_edge, Norm::l2>(beside, 1e-15);
 }
 
 TEST(NearestPoint, WhatIsNoDirectionSeparatesNothing) {
   const double nan = std::nan("");
-  const Polygon<Kind::vertex_face> none{{{nan, 0, 0}, {0, nan, 0}, {0, 0, nan}}};
-  EXPECT_FALSE(separation<Kind::vertex_face>(
-                   none, nearest<Kind::vertex_face, Norm::l2>(none).direction) < 1e299);
-  const Polygon<Kind::vertex_face> zero{Point::Zero(), Point::Zero(), Point::Zero()};
-  EXPECT_FALSE((nearest<Kind::vertex_face, Norm::l2>(zero).direction.array().abs() > 0.0).any());
+  const Polygon<ContactKind::vertex_face> none{{{nan, 0, 0}, {0, nan, 0}, {0, 0, nan}}};
+  EXPECT_FALSE(separation<ContactKind::vertex_face>(
+                   none, nearest<ContactKind::vertex_face, Norm::l2>(none).direction) < 1e299);
+  const Polygon<ContactKind::vertex_face> zero{Point::Zero(), Point::Zero(), Point::Zero()};
+  EXPECT_FALSE(
+      (nearest<ContactKind::vertex_face, Norm::l2>(zero).direction.array().abs() > 0.0).any());
 }
 
 // ---- The exact stage's parameters ---------------------------------------------------------------
@@ -153,7 +154,7 @@ double distance(const tests::PosedQuery& posed, double t, const exact_stage::Par
 TEST(NearestParameters, NoOtherPointIsNearer) {
   tests::Random random(1);
   for (int i = 0; i < 2000; ++i) {
-    const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
+    const ContactKind kind = i % 2 == 0 ? ContactKind::vertex_face : ContactKind::edge_edge;
     const tests::PosedQuery posed = tests::random_query(
         random, kind, tests::all_families[random.bits() % tests::all_families.size()]);
     const double t = random.coin() ? 0.5 : random.uniform();
@@ -164,7 +165,7 @@ TEST(NearestParameters, NoOtherPointIsNearer) {
       for (int k = 0; k < 50; ++k) {
         exact_stage::Parameters other{random.uniform(), random.uniform()};
         if (k % 5 == 0) (k % 2 == 0 ? other.u : other.v) = 0.0;
-        if (kind == Kind::vertex_face) other.v *= 1.0 - other.u;
+        if (kind == ContactKind::vertex_face) other.v *= 1.0 - other.u;
         ASSERT_LE(least, distance(posed, t, other, norm) + 1e-7) << posed;
       }
     }

@@ -34,7 +34,8 @@ using tests::Random;
 using namespace tests::exact_pair;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr auto kinds = std::to_array<Kind>({Kind::vertex_face, Kind::edge_edge});
+constexpr auto kinds =
+    std::to_array<ContactKind>({ContactKind::vertex_face, ContactKind::edge_edge});
 
 // ---- The truth ----------------------------------------------------------------------------------
 
@@ -59,7 +60,7 @@ Truth truth_at(const ExactPair& pair, const Rational& t,
                const std::optional<std::pair<Rational, Rational>>& touching) {
   const auto [u, v] = touching ? *touching : nearest_exactly(pair, t);
   const Vector p = pair.vector(1, t), q = pair.vector(2, t), f = pair.difference(t, u, v);
-  const bool is_face = pair.posed.kind == Kind::vertex_face;
+  const bool is_face = pair.posed.kind == ContactKind::vertex_face;
   Truth truth;
   truth.first = is_face ? pair.point(0, t) : sum(pair.point(0, t), -u, p);
   truth.second = sum(truth.first, -1, f);
@@ -111,7 +112,7 @@ double greatest_coordinate(const Query& query) {
 /// What is wrong, or nothing.
 std::string fault_of(const ExactPair& pair, const ContactEnclosure& found, const Truth& truth) {
   const auto [u, v] = found.at;
-  const bool is_face = pair.posed.kind == Kind::vertex_face;
+  const bool is_face = pair.posed.kind == ContactKind::vertex_face;
   if (!(u >= 0.0 && v >= 0.0 &&
         (is_face ? Rational(u) + Rational(v) : Rational(std::max(u, v))) <= 1))
     return "outside the domain";
@@ -161,7 +162,7 @@ struct Drawn {
   bool is_plain = false;  ///< in general position, of usual size
 };
 
-Drawn draw(Random& random, Kind kind) {
+Drawn draw(Random& random, ContactKind kind) {
   const auto family = tests::all_families[static_cast<std::size_t>(random.between(0, 3))];
   Drawn result{.posed = tests::random_query(random, kind, family)};
   Query& query = result.posed.query;
@@ -185,7 +186,8 @@ Drawn draw(Random& random, Kind kind) {
   return result;
 }
 
-using Enclose = ContactEnclosure(Kind, const Query&, const TimeEnclosure&, const Parameters&, bool);
+using Enclose = ContactEnclosure(ContactKind, const Query&, const TimeEnclosure&, const Parameters&,
+                                 bool);
 
 /// Numbers of contacts that are right and wrong, of those in general position, and of these that
 /// have narrow bounds.
@@ -213,7 +215,7 @@ struct Count {
 /// At the times of impact that the certified solver encloses.
 void ask_at_impacts(Enclose* enclose, Random& random, int rounds, double distance, Count& count) {
   for (int round = 0; round < rounds; ++round) {
-    const Kind kind = kinds.at(static_cast<std::size_t>(round) % 2);
+    const ContactKind kind = kinds.at(static_cast<std::size_t>(round) % 2);
     Drawn drawn = draw(random, kind);
     const Query& query = drawn.posed.query;
     const bool is_wide = random.coin();
@@ -245,7 +247,7 @@ void ask_at_impacts(Enclose* enclose, Random& random, int rounds, double distanc
 /// At given times, of parameters that may be poor.
 void ask_at_times(Enclose* enclose, Random& random, int rounds, Count& count) {
   for (int round = 0; round < rounds; ++round) {
-    const Kind kind = kinds.at(static_cast<std::size_t>(round) % 2);
+    const ContactKind kind = kinds.at(static_cast<std::size_t>(round) % 2);
     Drawn drawn = draw(random, kind);
     const Query& query = drawn.posed.query;
     const double t = random.coin() ? 0.125 * random.between(0, 8) : random.uniform(0, 1);
@@ -321,7 +323,7 @@ TEST(ContactEnclosure, IsThatOfItsImage) {
   Random random(5302);
   int compared = 0;
   for (int round = 0; round < tests::trials(600); ++round) {
-    const Kind kind = kinds.at(static_cast<std::size_t>(round) % 2);
+    const ContactKind kind = kinds.at(static_cast<std::size_t>(round) % 2);
     const PosedQuery posed = tests::random_query(random, kind, tests::Family::near_contact);
     const double distance = random.coin() ? 0.0 : 0.05;
     const auto result = solve(kind, posed.query, {.separation = {.distance = distance}});
@@ -345,7 +347,7 @@ TEST(ContactEnclosure, IsThatOfItsImage) {
     for (const std::size_t end : {0U, 1U}) {
       const Query& from = posed.query;
       Query& to = image.posed.query;
-      if (kind == Kind::vertex_face) {  // the face from another vertex
+      if (kind == ContactKind::vertex_face) {  // the face from another vertex
         for (std::size_t i = 1; i < moving_points; ++i)
           point_of(to, end, i % 3 + 1) = point_of(from, end, i);
       } else {  // the second edge first
@@ -353,7 +355,7 @@ TEST(ContactEnclosure, IsThatOfItsImage) {
           point_of(to, end, (i + 2) % 4) = point_of(from, end, i);
       }
     }
-    if (kind == Kind::vertex_face) {
+    if (kind == ContactKind::vertex_face) {
       image.at = {1.0 - result.u - result.v, result.u};
     } else {
       image.at = {result.v, result.u};

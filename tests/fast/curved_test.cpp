@@ -43,7 +43,9 @@ namespace {
 
 using tests::Random;
 
-Kind kind_of(int round) { return round % 2 == 0 ? Kind::vertex_face : Kind::edge_edge; }
+ContactKind kind_of(int round) {
+  return round % 2 == 0 ? ContactKind::vertex_face : ContactKind::edge_edge;
+}
 
 /// Curves of one degree with their weights: none, the same for all, for each primitive, or for each
 /// point.
@@ -63,10 +65,10 @@ struct Numbers {
 };
 
 /// So many random queries.
-Numbers random_queries(Random& random, const Sort& sort, Kind kind, std::size_t count) {
+Numbers random_queries(Random& random, const Sort& sort, ContactKind kind, std::size_t count) {
   Numbers result;
   const bool is_rational = sort.weights != Weights::none;
-  const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+  const std::size_t second = kind == ContactKind::vertex_face ? 1 : 2;
   for (std::size_t i = 0; i < count; ++i) {
     // Faster motion of the whole than of its parts, so that not all queries collide.
     std::array<double, 3> drift{};
@@ -105,7 +107,7 @@ double distance_at(const Queries& queries, std::size_t i, const CertifiedResult&
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto x = [&](std::size_t point) { return place.at(0, point, axis); };
     const auto [u, v] = std::pair(found.u, found.v);
-    const double f = queries.kind == Kind::vertex_face
+    const double f = queries.kind == ContactKind::vertex_face
                          ? x(0) - (x(1) + u * (x(2) - x(1)) + v * (x(3) - x(1)))
                          : x(0) + u * (x(1) - x(0)) - (x(2) + v * (x(3) - x(2)));
     most = std::max(most, std::abs(f) / greatest);
@@ -155,7 +157,7 @@ TEST_P(CurvedSolver, AgreesWithTheOracle) {
   int exact = 0, otherwise = 0, collisions = 0, queries = 0;
   const int rounds = tests::soak_trials(12, 400);
   for (int round = 0; round < rounds; ++round) {
-    const Kind kind = kind_of(round);
+    const ContactKind kind = kind_of(round);
     CertifiedOptions options{.max_threads = 1};
     // (The oracle takes seconds for curves of four denominators at a distance.)
     const bool is_slow = sort.weights == Weights::of_points && !sort.is_degenerate;
@@ -211,7 +213,7 @@ TEST(CurvedSolver, TakesLittleWorkInTheExactStage) {
         Row{{3, Weights::of_points, false}, none, 110'000},
         Row{{3, Weights::of_points, false}, linf, 400'000},
         Row{{3, Weights::of_points, false}, l2, 3'000'000}}) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
       Random random(106);
       const Numbers some = random_queries(random, sort, kind, 40);
       for (const auto& counting : tests::planted_faults().counting_on_curves) {
@@ -235,7 +237,7 @@ TEST(CurvedSolver, HasTheSameResultsAsAnswers) {
   const Separation separation{.distance = 0.1, .norm = Norm::l2};
   for (const std::size_t degree : {1U, 2U}) {
     const Numbers some =
-        random_queries(random, {degree, Weights::none, false}, Kind::edge_edge, 3000);
+        random_queries(random, {degree, Weights::none, false}, ContactKind::edge_edge, 3000);
     std::vector<CertifiedResult> results(some.queries.size());
     solve(some.queries, results, {.t_max = 0.75, .separation = separation});
     std::size_t collisions = 0;
@@ -270,7 +272,7 @@ bool answers_rightly(const CertifiedKernel& kernel, const Separation& separation
                                Weights::of_points};
     const Sort sort{2 + static_cast<std::size_t>(round) % 2,
                     sorts.at(static_cast<std::size_t>(round) % sorts.size()), round % 5 == 0};
-    const Kind kind = kind_of(round);
+    const ContactKind kind = kind_of(round);
     const Numbers some = random_queries(random, sort, kind, 100);
     std::vector<CertifiedResult> expected(some.queries.size()), found = expected;
     solve(some.queries, expected, options);
@@ -302,7 +304,7 @@ TEST(TightInclusionOnCurves, MissesNoContact) {
   int collisions = 0, false_positives = 0;
   const int rounds = tests::soak_trials(16, 500);
   for (int round = 0; round < rounds; ++round) {
-    const Kind kind = kind_of(round);
+    const ContactKind kind = kind_of(round);
     const auto weights = static_cast<Weights>(round / 4 % 4);
     const Sort sort{2 + static_cast<std::size_t>(round / 2) % 2, weights, round % 3 == 0};
     const Numbers some = random_queries(random, sort, kind, 40);
@@ -384,14 +386,14 @@ TEST(CurvedSolver, SaysWhereInputIsNone) {
   for (const double bad : {infinite, -infinite, std::nan("")}) {
     std::vector<double> numbers = rest;
     numbers[7] = bad;
-    solve(Queries({Kind::edge_edge, 1, false}, numbers), one);
+    solve(Queries({ContactKind::edge_edge, 1, false}, numbers), one);
     EXPECT_EQ(one[0].verdict, Verdict::error);
   }
   for (const double bad : {0.0, -1.0, infinite, std::nan("")}) {
     std::vector<double> numbers(4 * 2 * moving_points, 1.0);
     numbers[0] = 5.0;
     numbers[11] = bad;
-    solve(Queries({Kind::edge_edge, 1, true}, numbers), one);
+    solve(Queries({ContactKind::edge_edge, 1, true}, numbers), one);
     EXPECT_EQ(one[0].verdict, Verdict::error) << bad;
   }
 }
@@ -401,7 +403,8 @@ TEST(CurvedSolver, LeavesFewEdgesOfUnequalEndsToTheExactStage) {
   Random random(96);
   for (const std::array<double, 4>& weights :
        {std::array{1.0, 3.0, 1.0, 3.0}, {10.0, 1.0, 1.0, 10.0}, {1.0, 1.0, 0.125, 2.0}}) {
-    Numbers some = random_queries(random, {2, Weights::of_points, false}, Kind::edge_edge, 400);
+    Numbers some =
+        random_queries(random, {2, Weights::of_points, false}, ContactKind::edge_edge, 400);
     for (std::size_t i = 3; i < some.numbers.size(); i += 4) {
       some.numbers[i] = weights.at(i / 4 % moving_points);
     }
@@ -422,8 +425,8 @@ TEST(CurvedSolver, DecidesWeightsOfAnySize) {
        {std::tuple(std::size_t{1}, Weights::of_points, std::size_t{20}),
         {std::size_t{2}, Weights::of_primitives, std::size_t{20}},
         {std::size_t{2}, Weights::of_points, std::size_t{1}}}) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+    for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
+      const std::size_t second = kind == ContactKind::vertex_face ? 1 : 2;
       Numbers some = random_queries(random, {degree, sort, true}, kind, count);
       for (std::size_t i = 3; i < some.numbers.size(); i += 4) {
         const std::size_t point = i / 4 % moving_points;
@@ -445,7 +448,7 @@ TEST(CurvedSolver, DecidesWeightsOfAnySize) {
 using Lanes = ScalarLanes;
 using Value = Lanes::Value;
 using Mask = Lanes::Mask;
-constexpr Kind of_face = Kind::vertex_face;
+constexpr ContactKind of_face = ContactKind::vertex_face;
 using Polygons = curved::ControlPolygons<Lanes, of_face>;
 
 /// One rational or polynomial query of degree 2, with weights in common to a primitive.
@@ -593,7 +596,7 @@ bool is_multiple(const exact_stage::Polynomial& a, const exact_stage::Polynomial
 /// For every choice of equal and different weights of the points.
 TEST(CurvedPolygon, HasFactorsThatDivideTheDeterminant) {
   Random random(101);
-  for (const Kind any : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind any : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     for (int choice = 0; choice < 625; ++choice) {
       CurvedQuery query;
       int rest = choice;

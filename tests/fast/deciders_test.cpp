@@ -47,7 +47,8 @@ constexpr double tiniest = std::numeric_limits<double>::denorm_min();
 
 struct Decider {
   std::string_view name;
-  void (*solve)(Kind, std::span<const Query>, std::span<CertifiedResult>, const CertifiedOptions&);
+  void (*solve)(ContactKind, std::span<const Query>, std::span<CertifiedResult>,
+                const CertifiedOptions&);
   bool knows_the_place;   ///< F is 0 at its (u,v), up to rounding
   std::size_t share = 1;  ///< it decides one in so many queries at a separation
 
@@ -59,23 +60,23 @@ struct Decider {
   }
 };
 
-void solve_exactly(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
-                   const CertifiedOptions& options) {
+void solve_exactly(ContactKind kind, std::span<const Query> queries,
+                   std::span<CertifiedResult> results, const CertifiedOptions& options) {
   for (std::size_t i = 0; i < queries.size(); ++i) {
     results[i] = decided_exactly(kind, queries[i], options);
   }
 }
 
-void solve_certified(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
-                     const CertifiedOptions& options) {
+void solve_certified(ContactKind kind, std::span<const Query> queries,
+                     std::span<CertifiedResult> results, const CertifiedOptions& options) {
   solve({kind, queries}, results, options);
 }
 
-void solve_points(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
-                  const CertifiedOptions& options) {
+void solve_points(ContactKind kind, std::span<const Query> queries,
+                  std::span<CertifiedResult> results, const CertifiedOptions& options) {
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const auto p = [&](std::size_t end, std::size_t k) { return point_of(queries[i], end, k); };
-    const auto solve = kind == Kind::vertex_face ? &solve_vertex_face : &solve_edge_edge;
+    const auto solve = kind == ContactKind::vertex_face ? &solve_vertex_face : &solve_edge_edge;
     results[i] =
         solve(p(0, 0), p(0, 1), p(0, 2), p(0, 3), p(1, 0), p(1, 1), p(1, 2), p(1, 3), options);
   }
@@ -99,7 +100,7 @@ exact_stage::Motion<Number> integer_motion(const PosedQuery& posed, double scale
     };
     return exact_stage::Form<Number, 1>{at(0), at(1)};
   };
-  const bool face = posed.kind == Kind::vertex_face;
+  const bool face = posed.kind == ContactKind::vertex_face;
   for (std::size_t k = 0; k < 3; ++k) {
     motion.r[k] = face ? line(0, 1, k) : line(0, 2, k);
     motion.p[k] = face ? line(2, 1, k) : line(0, 1, k);
@@ -112,7 +113,7 @@ exact_stage::Motion<Number> integer_motion(const PosedQuery& posed, double scale
 /// a fixed size, with coordinates that just fit, or the general one, which other queries come to if
 /// they are large.
 template <class Number>
-void solve_in(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
+void solve_in(ContactKind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
               const CertifiedOptions& options) {
   const auto latest = std::bit_cast<std::uint64_t>(options.t_max);
   for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -135,8 +136,8 @@ void solve_in(Kind kind, std::span<const Query> queries, std::span<CertifiedResu
 
 /// Lines as curves, of degree 2 where the control point in the middle is a double, else of degree 1
 /// with equal weights. (With a tolerance of 1 the enclosure of a time that is 0 may end later.)
-void solve_curves(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
-                  const CertifiedOptions& options) {
+void solve_curves(ContactKind kind, std::span<const Query> queries,
+                  std::span<CertifiedResult> results, const CertifiedOptions& options) {
   CertifiedOptions of_curves = options;
   of_curves.toi_tolerance = std::min(options.toi_tolerance, 0.5);
   for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -178,7 +179,7 @@ constexpr std::array<Decider, 7> deciders{
 struct QueryFamily {
   std::string name;
   std::size_t count;  ///< for each kind; public data: all, or 0 if missing
-  std::function<Query(Random&, Kind, std::size_t)> draw;
+  std::function<Query(Random&, ContactKind, std::size_t)> draw;
 
   friend std::ostream& operator<<(std::ostream& out, const QueryFamily& one) {
     return out << one.name;
@@ -193,7 +194,7 @@ Query scaled(Query query, int exponent) {
 /// A query near the border of contact, with the coordinates that `is_chosen(axis, point)` far out
 /// of scale.
 template <class IsChosen>
-Query out_of_scale(Random& random, Kind kind, const IsChosen& is_chosen) {
+Query out_of_scale(Random& random, ContactKind kind, const IsChosen& is_chosen) {
   Query query = tests::near_contact_query(random, kind);
   const int exponent = random.between(-900, 900);
   for (std::size_t k = 0; k < query.coordinates.size(); ++k) {
@@ -204,7 +205,7 @@ Query out_of_scale(Random& random, Kind kind, const IsChosen& is_chosen) {
   return query;
 }
 
-Query of_all_magnitudes(Random& random, Kind kind, std::size_t i) {
+Query of_all_magnitudes(Random& random, ContactKind kind, std::size_t i) {
   constexpr std::array exponents{-1080, -1074, -1030, -500, -340, -120, -60,
                                  60,    99,    120,   340,  1000, 1018};
   return scaled(
@@ -233,7 +234,7 @@ Query perturbed(Random& random) {
 }
 
 /// Small primitives far away: differences cancel, and round.
-Query far_from_the_origin(Random& random, Kind kind) {
+Query far_from_the_origin(Random& random, ContactKind kind) {
   Query query = tests::near_contact_query(random, kind);
   const double offset = std::ldexp(random.uniform(1.0, 2.0), random.between(0, 52));
   for (double& x : query.coordinates) x += offset;
@@ -241,7 +242,7 @@ Query far_from_the_origin(Random& random, Kind kind) {
 }
 
 /// A query of each of the families of verify/generate in turn.
-Query built_in(Kind kind, std::size_t i) {
+Query built_in(ContactKind kind, std::size_t i) {
   const auto families = verify::generate::families();
   std::size_t number = i % families.size();
   while (!verify::generate::supports(families[number], kind))
@@ -249,8 +250,8 @@ Query built_in(Kind kind, std::size_t i) {
   return verify::generate::make_query(families[number], kind, 4, i / families.size()).query;
 }
 
-const std::vector<Query>& public_queries(Kind kind) {
-  static const auto read = [](Kind wanted) {
+const std::vector<Query>& public_queries(ContactKind kind) {
+  static const auto read = [](ContactKind wanted) {
     std::vector<Query> queries;
     for (const auto& file : tests::public_datasets()) {
       const auto source = verify::data::open_dataset(file);
@@ -262,47 +263,51 @@ const std::vector<Query>& public_queries(Kind kind) {
     }
     return queries;
   };
-  static const std::array both{read(Kind::vertex_face), read(Kind::edge_edge)};
-  return both.at(kind == Kind::vertex_face ? 0 : 1);
+  static const std::array both{read(ContactKind::vertex_face), read(ContactKind::edge_edge)};
+  return both.at(kind == ContactKind::vertex_face ? 0 : 1);
 }
 
 std::vector<QueryFamily> query_families() {
   const auto of = [](tests::Family family) {
-    return [family](Random& random, Kind kind, std::size_t) {
+    return [family](Random& random, ContactKind kind, std::size_t) {
       return tests::random_query(random, kind, family).query;
     };
   };
   return {
       {"tiny_integers", 4000, of(tests::Family::tiny_integers)},
       {"small_integers", 6000, of(tests::Family::small_integers)},
-      {"integers", 600, [](Random& r, Kind, std::size_t) { return tests::integer_query(r, 4); }},
-      {"perturbed_integers", 1000, [](Random& r, Kind, std::size_t) { return perturbed(r); }},
+      {"integers", 600,
+       [](Random& r, ContactKind, std::size_t) { return tests::integer_query(r, 4); }},
+      {"perturbed_integers", 1000,
+       [](Random& r, ContactKind, std::size_t) { return perturbed(r); }},
       {"full_significands", 1500, of(tests::Family::full_significands)},
       {"near_contact", 1500, of(tests::Family::near_contact)},
       {"all_magnitudes", 1300, of_all_magnitudes},
       {"one_axis_out_of_scale", 100,
-       [](Random& r, Kind kind, std::size_t i) {
+       [](Random& r, ContactKind kind, std::size_t i) {
          return out_of_scale(r, kind, [i](std::size_t axis, std::size_t) { return axis == i % 3; });
        }},
       {"one_point_out_of_scale", 100,
-       [](Random& r, Kind kind, std::size_t i) {
+       [](Random& r, ContactKind kind, std::size_t i) {
          return out_of_scale(r, kind, [i](std::size_t, std::size_t k) { return k == i % 4; });
        }},
       {"finite_doubles", 50,
-       [](Random& r, Kind, std::size_t) {
+       [](Random& r, ContactKind, std::size_t) {
          Query query{};
          for (double& x : query.coordinates) x = r.finite_double();
          return query;
        }},
-      {"mixed_values", 200, [](Random& r, Kind, std::size_t) { return of_mixed_values(r); }},
+      {"mixed_values", 200, [](Random& r, ContactKind, std::size_t) { return of_mixed_values(r); }},
       {"subnormals", 500,
-       [](Random& r, Kind, std::size_t) { return scaled(tests::integer_query(r, 3), -1074); }},
+       [](Random& r, ContactKind, std::size_t) {
+         return scaled(tests::integer_query(r, 3), -1074);
+       }},
       {"far_from_the_origin", 400,
-       [](Random& r, Kind kind, std::size_t) { return far_from_the_origin(r, kind); }},
+       [](Random& r, ContactKind kind, std::size_t) { return far_from_the_origin(r, kind); }},
       {"built_in", 100 * verify::generate::families().size(),
-       [](Random&, Kind kind, std::size_t i) { return built_in(kind, i); }},
+       [](Random&, ContactKind kind, std::size_t i) { return built_in(kind, i); }},
       {"public_data", tests::public_datasets().size(),
-       [](Random&, Kind kind, std::size_t i) { return public_queries(kind).at(i); }}};
+       [](Random&, ContactKind kind, std::size_t i) { return public_queries(kind).at(i); }}};
 }
 
 // ---- Queries by hand ----------------------------------------------------------------------------
@@ -314,23 +319,23 @@ struct ByHand {
 };
 
 /// Primitives over each other, at height z0 and then z1.
-PosedQuery over(Kind kind, double z0, double z1) {
-  return kind == Kind::vertex_face ? tests::over_triangle(1, 1, z0, z1)
-                                   : tests::over_edge(1, 1, z0, z1);
+PosedQuery over(ContactKind kind, double z0, double z1) {
+  return kind == ContactKind::vertex_face ? tests::over_triangle(1, 1, z0, z1)
+                                          : tests::over_edge(1, 1, z0, z1);
 }
 
 /// Primitives of a size beside each other, nearest at corners with the difference (3,4,z), z from
 /// −8 to 8.
-PosedQuery beside(Kind kind, double size) {
+PosedQuery beside(ContactKind kind, double size) {
   const auto at = [&](double z) {
-    return kind == Kind::vertex_face
+    return kind == ContactKind::vertex_face
                ? tests::FourPoints{-3, -4, z, 0, 0, 0, size, 0, 0, 0, size, 0}
                : tests::FourPoints{0, 0, 0, size, 0, 0, -3, 4, z, -3, 4 + size, z};
   };
   return {kind, tests::moving(at(-8), at(8))};
 }
 
-std::vector<ByHand> queries_by_hand(Kind kind) {
+std::vector<ByHand> queries_by_hand(ContactKind kind) {
   constexpr double largest = std::numeric_limits<double>::max();
   const auto below = [](double x) { return std::nextafter(x, 0.0); };
   std::vector<ByHand> all;
@@ -469,7 +474,7 @@ class Deciders : public testing::TestWithParam<QueryFamily> {
   }
 
   /// All queries of the family, or one in `stride`.
-  static std::vector<Query> draw(Kind kind, std::size_t stride) {
+  static std::vector<Query> draw(ContactKind kind, std::size_t stride) {
     const auto& [name, count, draw_one] = GetParam();
     const std::size_t all = name == "public_data" ? public_queries(kind).size() : scaled(count);
     Random random(11);
@@ -480,7 +485,7 @@ class Deciders : public testing::TestWithParam<QueryFamily> {
 };
 
 TEST_P(Deciders, AreRightAboutContact) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     const std::vector<Query> queries = draw(kind, 1);
     for (std::size_t turn = 0; turn < options_in_turn.size(); ++turn) {
       const CertifiedOptions& options = options_in_turn.at(turn);
@@ -504,7 +509,7 @@ TEST_P(Deciders, AreRightAboutContact) {
 
 TEST_P(Deciders, AreRightAtSeparations) {
   Random random(12);
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     const std::vector<Query> queries = draw(kind, 5);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       CertifiedOptions options = options_in_turn.at(i % options_in_turn.size());
@@ -522,7 +527,7 @@ TEST_P(Deciders, AreRightAtSeparations) {
 
 TEST(DecidersByHand, AreRightWhereABitDecides) {
   int collisions = 0, no_collisions = 0;
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     for (const auto& [posed, separation] : queries_by_hand(kind)) {
       const exact::Decision truth = exact::decide(posed.kind, posed.query, separation);
       ++(truth.collides() ? collisions : no_collisions);
@@ -551,7 +556,7 @@ TEST(FixedSizeDecision, DecidesAlmostAllSmallIntegers) {
   int undecided = 0;
   constexpr int count = 4000;
   for (int i = 0; i < count; ++i) {
-    const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
+    const ContactKind kind = i % 2 == 0 ? ContactKind::vertex_face : ContactKind::edge_edge;
     const PosedQuery posed{kind, tests::integer_query(random, 1 + i % 4)};
     for (const double scale : {1.0, greatest_scale(posed.query)}) {
       const auto motion = integer_motion<Number>(posed, scale);

@@ -33,7 +33,8 @@ using tests::Random;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double greatest = std::numeric_limits<double>::max();
 constexpr double tiniest = std::numeric_limits<double>::denorm_min();
-constexpr auto kinds = std::to_array<Kind>({Kind::vertex_face, Kind::edge_edge});
+constexpr auto kinds =
+    std::to_array<ContactKind>({ContactKind::vertex_face, ContactKind::edge_edge});
 constexpr auto norms = std::to_array<Norm>({Norm::l2, Norm::linf});
 
 // ---- The truth ----------------------------------------------------------------------------------
@@ -96,7 +97,7 @@ double random_time(Random& random) {
 }
 
 /// A query with the coordinates of the last axes, from `first` on, at another scale.
-PosedQuery scaled_from(std::size_t first, int exponent, Random& random, Kind kind) {
+PosedQuery scaled_from(std::size_t first, int exponent, Random& random, ContactKind kind) {
   PosedQuery posed = tests::random_query(random, kind, tests::Family::full_significands);
   for (std::size_t i = 0; i < posed.query.coordinates.size(); ++i) {
     double& x = posed.query.coordinates[i];
@@ -105,23 +106,23 @@ PosedQuery scaled_from(std::size_t first, int exponent, Random& random, Kind kin
   return posed;
 }
 
-PosedQuery of_one_scale(Random& random, Kind kind) {
+PosedQuery of_one_scale(Random& random, ContactKind kind) {
   return scaled_from(0, random.between(-1070, 1021), random, kind);
 }
 
 /// All sizes are 1, but on one axis.
-PosedQuery flat(Random& random, Kind kind) {
+PosedQuery flat(Random& random, ContactKind kind) {
   return scaled_from(2, -std::abs(random.between(-1070, 1021)), random, kind);
 }
 
-PosedQuery of_all_scales(Random& random, Kind kind) {
+PosedQuery of_all_scales(Random& random, ContactKind kind) {
   PosedQuery posed{kind, {}};
   for (double& x : posed.query.coordinates) x = random.finite_double();
   return posed;
 }
 
 /// Some points equal others or are collinear with two others, at one end or at both.
-PosedQuery degenerate(Random& random, Kind kind) {
+PosedQuery degenerate(Random& random, ContactKind kind) {
   PosedQuery posed = tests::random_query(random, kind, tests::Family::full_significands);
   for (int i = random.between(1, 3); i > 0; --i) {
     const auto from = static_cast<std::size_t>(random.between(0, 3));
@@ -145,7 +146,7 @@ TEST(Distance, IsThatOfRationals) {
     for (const Norm norm : norms) ASSERT_EQ(fault(posed, t, norm), "");
   };
   for (int round = 0; round < tests::soak_trials(150, 25); ++round) {
-    for (const Kind kind : kinds) {
+    for (const ContactKind kind : kinds) {
       for (const tests::Family family : tests::all_families) {
         expect_truth(tests::random_query(random, kind, family));
       }
@@ -203,7 +204,7 @@ TEST(NeighbouringDoubles, AreFoundFromAnyGuess) {
 
 TEST(Distance, OfManyIsThatOfEachInAllInstructionSetsAndAsARuleFiltered) {
   Random random(2006);
-  for (const Kind kind : kinds) {
+  for (const ContactKind kind : kinds) {
     for (const double t : {0.0, 0.3, 1.0}) {
       // A count that is not a multiple of any number of lanes; one in four is near contact.
       std::vector<Query> queries;
@@ -255,7 +256,7 @@ Kept ask_what_is_kept(const KeepsDistance& keeps) {
   Kept result;
   Random random(2011);
   for (int round = 0; round < 20000; ++round) {
-    const Kind kind = kinds.at(static_cast<std::size_t>(round) % 2);
+    const ContactKind kind = kinds.at(static_cast<std::size_t>(round) % 2);
     Query query = tests::random_query(
                       random, kind, tests::all_families.at(static_cast<std::size_t>(round) / 2 % 4))
                       .query;
@@ -291,7 +292,7 @@ TEST(KeptDistance, IsSeenUntilShortlyBefore) {
   // 5/8, which is 1/2 and a quarter of the rest, at 3/16.
   const Query query = tests::over_triangle(4.0 / 3.0, 4.0 / 3.0, 1, -1).query;
   const auto keeps = [&](double t_max, double least) {
-    return keeps_distance(Kind::vertex_face, query, t_max, {.part = 0.25, .least = least});
+    return keeps_distance(ContactKind::vertex_face, query, t_max, {.part = 0.25, .least = least});
   };
   EXPECT_TRUE(keeps(0.374, 0.0));
   EXPECT_FALSE(keeps(0.376, 0.0));
@@ -299,11 +300,11 @@ TEST(KeptDistance, IsSeenUntilShortlyBefore) {
   EXPECT_FALSE(keeps(0.188, 0.5));
   EXPECT_FALSE(keeps(0.0, 1.0));
   const Query above = tests::over_triangle(1, 1, 100, 99).query;
-  EXPECT_TRUE(keeps_distance(Kind::vertex_face, above, 1.0, {.part = 0.25}));
-  EXPECT_FALSE(keeps_distance(Kind::vertex_face, above, 1.0, {.part = 1.0}));
+  EXPECT_TRUE(keeps_distance(ContactKind::vertex_face, above, 1.0, {.part = 0.25}));
+  EXPECT_FALSE(keeps_distance(ContactKind::vertex_face, above, 1.0, {.part = 1.0}));
   Query unknown = above;
   unknown.coordinates[23] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(keeps_distance(Kind::vertex_face, unknown, 1.0, {}));
+  EXPECT_FALSE(keeps_distance(ContactKind::vertex_face, unknown, 1.0, {}));
 }
 
 TEST(KeptDistance, PlantedFaultsAreFound) {
@@ -319,7 +320,7 @@ template <class DistanceOf>
 bool is_found(const DistanceOf& distance_of) {
   Random random(2010);
   for (int round = 0; round < 200; ++round) {
-    for (const Kind kind : kinds) {
+    for (const ContactKind kind : kinds) {
       for (const tests::Family family : tests::all_families) {
         const PosedQuery posed = tests::random_query(random, kind, family);
         // At the impact the distance is almost 0.
@@ -353,7 +354,7 @@ std::optional<LeastDistance> least_of(const tests::Scene& scene, double t, Norm 
   const bool has_thickness = !scene.separations.empty() ||
                              std::ranges::any_of(scene.radii, [](double r) { return r > 0; });
   for (const auto& named : all.pairs()) {
-    Distance found = exact_distance(Step::kind_of(named.first), all.query(named), t, norm);
+    Distance found = exact_distance(decided_as(named.first), all.query(named), t, norm);
     if (!has_thickness) {
       const auto order = [](const Distance& d) { return std::pair(d.lower, d.upper); };
       if (!result || order(found) < order(result->distance)) result = LeastDistance{found, {}};

@@ -105,7 +105,7 @@ void put(Bits& bits, const std::vector<IndexPair>& pairs) {
 
 /// Queries near the border of contact, degenerate ones, and subnormals, which a caller that flushes
 /// them would lose.
-std::vector<Query> queries(Kind kind, std::size_t count = 300) {
+std::vector<Query> queries(ContactKind kind, std::size_t count = 300) {
   Random random(29);
   std::vector<Query> result(count);
   for (std::size_t i = 0; i < result.size(); ++i) {
@@ -121,21 +121,22 @@ std::vector<Query> queries(Kind kind, std::size_t count = 300) {
 /// norms.
 template <class Ask>
 std::function<Bits()> of_queries(const Ask& ask, std::size_t count) {
-  return [ask, faces = queries(Kind::vertex_face, count), edges = queries(Kind::edge_edge, count)] {
+  return [ask, faces = queries(ContactKind::vertex_face, count),
+          edges = queries(ContactKind::edge_edge, count)] {
     Bits bits;
     for (std::size_t i = 0; i < faces.size(); ++i) {
       for (const Separation& separation :
            {Separation{}, Separation{.distance = 1e-3, .norm = Norm::linf},
             Separation{.distance = i % 2 == 0 ? 1e-3 : 0x1p-1070, .norm = Norm::l2}}) {
-        ask(bits, Kind::vertex_face, faces[i], separation);
-        ask(bits, Kind::edge_edge, edges[i], separation);
+        ask(bits, ContactKind::vertex_face, faces[i], separation);
+        ask(bits, ContactKind::edge_edge, edges[i], separation);
       }
     }
     return bits;
   };
 }
 
-void ask_oracle(Bits& bits, Kind kind, const Query& query, const Separation& separation) {
+void ask_oracle(Bits& bits, ContactKind kind, const Query& query, const Separation& separation) {
   // A distance below 0, though a caller that flushes it sees 0, is refused.
   const auto refused = [&] { (void)exact::decide(kind, query, {-0x1p-1074, Norm::l2}); };
   put(bits, std::size_t{tests::message_of<std::invalid_argument>(refused).empty()});
@@ -146,28 +147,28 @@ void ask_oracle(Bits& bits, Kind kind, const Query& query, const Separation& sep
   put(bits, toi.lower, toi.upper);
 }
 
-void ask_prover(Bits& bits, Kind kind, const Query& query, const Separation& separation) {
+void ask_prover(Bits& bits, ContactKind kind, const Query& query, const Separation& separation) {
   const auto verdict = exact::decide(kind, query, separation);
   const std::string text = exact::certificate_stream(exact::prove(kind, query, verdict));
   put(bits, std::hash<std::string>()(text));
 }
 
 std::function<Bits()> of_batches() {
-  return [faces = queries(Kind::vertex_face), edges = queries(Kind::edge_edge)] {
+  return [faces = queries(ContactKind::vertex_face), edges = queries(ContactKind::edge_edge)] {
     Bits bits;
     for (const int threads : {1, 3}) {
       std::vector<CertifiedResult> results(faces.size());
       for (const double distance : {0.0, 1e-3}) {
         const CertifiedOptions options{.separation = {.distance = distance, .norm = Norm::l2},
                                        .max_threads = threads};
-        for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-          solve({kind, kind == Kind::vertex_face ? faces : edges}, results, options);
+        for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
+          solve({kind, kind == ContactKind::vertex_face ? faces : edges}, results, options);
           for (const CertifiedResult& result : results) put(bits, result);
         }
       }
       std::vector<Distance> apart(faces.size());
       for (const Norm norm : {Norm::l2, Norm::linf}) {
-        distances(Kind::vertex_face, faces, 0.5, norm, apart, threads);
+        distances(ContactKind::vertex_face, faces, 0.5, norm, apart, threads);
         for (const Distance& one : apart) put(bits, one);
       }
     }

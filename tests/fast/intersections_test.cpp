@@ -32,7 +32,7 @@ using exact::RationalTriangle;
 using tests::Random;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using Found = std::vector<Intersection>;
-using Kind = IntersectionKind;
+using ContactKind = IntersectionKind;
 
 Rows rows(std::initializer_list<std::array<double, 3>> points) {
   Rows result(static_cast<Eigen::Index>(points.size()), 3);
@@ -117,8 +117,8 @@ PointEnclosure enclosure_of(const RationalPoint& x, const exact::Rational& unit)
 }
 
 /// The kind and the place by rational arithmetic; none if they do not intersect.
-std::optional<std::pair<Kind, std::array<PointEnclosure, 2>>> truth_of(const Rows& vertices,
-                                                                       const Pair& pair) {
+std::optional<std::pair<ContactKind, std::array<PointEnclosure, 2>>> truth_of(const Rows& vertices,
+                                                                              const Pair& pair) {
   const exact::Rational unit = unit_of(vertices);
   const RationalTriangle a = hull_of(vertices, unit, pair[0]);
   const RationalTriangle b = hull_of(vertices, unit, pair[1]);
@@ -136,18 +136,21 @@ std::optional<std::pair<Kind, std::array<PointEnclosure, 2>>> truth_of(const Row
   if (corners.empty() || (is_common && !are_duplicates)) return std::nullopt;
   const std::array place{enclosure_of(std::ranges::min(corners), unit),
                          enclosure_of(std::ranges::max(corners), unit)};
-  if (are_duplicates) return std::pair(Kind::duplicates, place);
+  if (are_duplicates) return std::pair(ContactKind::duplicates, place);
   if (corners.size() > 2) {
-    return std::pair(common.size() == 2 ? Kind::folded_faces : Kind::coplanar_overlap, place);
+    return std::pair(common.size() == 2 ? ContactKind::folded_faces : ContactKind::coplanar_overlap,
+                     place);
   }
   const int in_a = dimension_around(a, corners), in_b = dimension_around(b, corners);
   if (corners.size() == 2) {
-    return std::pair(in_a + in_b == 2 ? Kind::edges_overlap : Kind::edge_through_face, place);
+    return std::pair(in_a + in_b == 2 ? ContactKind::edges_overlap : ContactKind::edge_through_face,
+                     place);
   }
-  static constexpr std::array<std::array<Kind, 3>, 3> of_point{
-      {{Kind::vertices_coincide, Kind::vertex_on_edge, Kind::vertex_in_face},
-       {Kind::vertex_on_edge, Kind::edges_cross, Kind::edge_through_face},
-       {Kind::vertex_in_face, Kind::edge_through_face, Kind::edge_through_face}}};
+  static constexpr std::array<std::array<ContactKind, 3>, 3> of_point{
+      {{ContactKind::vertices_coincide, ContactKind::vertex_on_edge, ContactKind::vertex_in_face},
+       {ContactKind::vertex_on_edge, ContactKind::edges_cross, ContactKind::edge_through_face},
+       {ContactKind::vertex_in_face, ContactKind::edge_through_face,
+        ContactKind::edge_through_face}}};
   return std::pair(of_point[static_cast<std::size_t>(in_a)][static_cast<std::size_t>(in_b)], place);
 }
 
@@ -220,7 +223,7 @@ class Trial {
   }
 
   /// Expects the truth, and returns the kind.
-  [[nodiscard]] std::optional<Kind> run() const {
+  [[nodiscard]] std::optional<ContactKind> run() const {
     const Found found = mesh().intersections();
     const auto truth = truth_of(vertices_, pair_);
     EXPECT_EQ(found.size(), truth ? 1U : 0U) << text();
@@ -255,7 +258,7 @@ TEST(Intersections, OfTwoElementsAreThoseOfRationalArithmetic) {
     if (const auto kind = trial.run()) ++seen.at(static_cast<std::size_t>(*kind));
   }
   for (std::size_t kind = 0; kind < seen.size(); ++kind) {
-    EXPECT_GT(seen[kind], tests::trials(20)) << to_string(static_cast<Kind>(kind));
+    EXPECT_GT(seen[kind], tests::trials(20)) << to_string(static_cast<ContactKind>(kind));
   }
 }
 
@@ -314,7 +317,7 @@ struct Asked {
   using Corners = std::array<std::int32_t, 3>;
   /// The last corner is repeated for an edge or a point.
   struct Element {
-    ElementKind kind;
+    PrimitiveKind kind;
     std::int32_t number;
     Corners corners;
   };
@@ -337,14 +340,14 @@ struct Asked {
     std::vector<Element> result;
     std::set<Edge> edges;
     std::set<std::int32_t> taken, points(mesh.points.begin(), mesh.points.end());
-    const auto add = [&](ElementKind kind, auto number, const Corners& corners) {
+    const auto add = [&](PrimitiveKind kind, auto number, const Corners& corners) {
       result.push_back({kind, static_cast<std::int32_t>(number), corners});
       taken.insert(corners.begin(), corners.end());
     };
     for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
       const auto [a, b, c] = mesh.faces[i];
       const Corners corners{welded(a), welded(b), welded(c)};
-      add(ElementKind::face, i, corners);
+      add(PrimitiveKind::face, i, corners);
       if (pairs != IntersectingPairs::all) continue;
       for (std::size_t k = 0; k < 3; ++k) {
         edges.insert(tests::ordered(corners[k], corners[(k + 1) % 3]));
@@ -355,11 +358,11 @@ struct Asked {
       const Edge edge = tests::ordered(welded(a), welded(b));
       if (edge[0] == edge[1]) points.insert(std::min(a, b));
       if (edge[0] == edge[1] || !edges.insert(edge).second) continue;
-      add(ElementKind::edge, i, {edge[0], edge[1], edge[1]});
+      add(PrimitiveKind::edge, i, {edge[0], edge[1], edge[1]});
     }
     for (const std::int32_t i : points) {
       const std::int32_t vertex = welded(i);
-      if (!taken.contains(vertex)) add(ElementKind::point, i, {vertex, vertex, vertex});
+      if (!taken.contains(vertex)) add(PrimitiveKind::point, i, {vertex, vertex, vertex});
     }
     return result;
   }
@@ -375,7 +378,7 @@ struct Asked {
       }
     }
     if (!some_meet || pairs == IntersectingPairs::all) return some_meet;
-    return a.kind == ElementKind::face && b.kind == ElementKind::edge && !share_vertex;
+    return a.kind == PrimitiveKind::face && b.kind == PrimitiveKind::edge && !share_vertex;
   }
 };
 
@@ -477,7 +480,7 @@ class FilterTrial {
     for (const auto& [a, b] : pairs_) {
       const auto truth = truth_of(mesh_.vertices, {mesh_.faces[static_cast<std::size_t>(a)],
                                                    mesh_.faces[static_cast<std::size_t>(b)]});
-      if (truth) result.emplace_back(a / 2, truth->first == Kind::edge_through_face);
+      if (truth) result.emplace_back(a / 2, truth->first == ContactKind::edge_through_face);
     }
     return result;
   }

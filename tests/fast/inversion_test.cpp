@@ -1,5 +1,5 @@
 /// \file
-/// Inversions in floating point and integers beside the oracle: of all sorts of elements, a half of
+/// Inversions in floating point and integers beside the oracle: of all sorts of cells, a half of
 /// them degenerate; alone, in batches and of meshes; by every kernel.
 
 #include <gtest/gtest.h>
@@ -19,20 +19,18 @@
 #include <tuple>
 #include <vector>
 
+#include "fast/cells/decision.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/kernels.hpp"
 #include "tests/faults/planted_faults.hpp"
-#include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/floating_point_modes.hpp"
-#include "tests/support/inverting_elements.hpp"
+#include "tests/support/inverting_cells.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
-#include "touchstone/certified.hpp"
-#include "touchstone/contacts.hpp"
-#include "touchstone/element.hpp"
+#include "touchstone/cell.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/step.hpp"
-#include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::fast::inversion_test {
 namespace {
@@ -48,18 +46,18 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 std::string printed(const Query& query) {
   std::ostringstream out;
-  out << tests::PosedQuery{Kind::vertex_face, query};
+  out << tests::PosedQuery{ContactKind::vertex_face, query};
   return out.str();
 }
 
-CertifiedResult inversion(const Query& tetrahedron, const CertifiedOptions& options = {}) {
-  return solve(Kind::tetrahedron, tetrahedron, options);
+Inversion inversion(const Query& tetrahedron, const InversionOptions& options = {}) {
+  return fast::inversion(CellKind::tetrahedron, tetrahedron, options);
 }
 
-std::vector<CertifiedResult> inversions(Kind kind, const std::vector<Query>& queries,
-                                        const CertifiedOptions& options = {}) {
-  std::vector<CertifiedResult> results(queries.size());
-  solve({kind, queries}, results, options);
+std::vector<Inversion> inversions(CellKind kind, const std::vector<Query>& cells,
+                                  const InversionOptions& options = {}) {
+  std::vector<Inversion> results(cells.size());
+  fast::inversions({kind, cells}, results, options);
   return results;
 }
 
@@ -74,7 +72,7 @@ Query falling_to(double height) {
 TEST(Inversion, IsDecidedInFloatingPointUnlessItIsDegenerate) {
   EXPECT_FALSE(inversion(falling_to(0.5)).is_exact);
   EXPECT_EQ(inversion(falling_to(0.5)).verdict, Verdict::no);
-  const CertifiedResult through = inversion(falling_to(-3.0));
+  const Inversion through = inversion(falling_to(-3.0));
   EXPECT_FALSE(through.is_exact);
   EXPECT_EQ(through.verdict, Verdict::yes);
   EXPECT_LT(through.toi_lower, 0.25);
@@ -86,7 +84,7 @@ TEST(Inversion, IsDecidedInFloatingPointUnlessItIsDegenerate) {
   // Turned by 160 degrees about the z axis on straight lines: 6 V = 1 − 4 s² t (1−t) with s = sin
   // 80°.
   const double c = std::cos(160 * 0x1.921fb54442d18p+1 / 180), s = std::sqrt(1 - c * c);
-  const CertifiedResult turned = inversion(
+  const Inversion turned = inversion(
       tests::moving({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0, c, s, 0, -s, c, 0, 0, 0, 1}));
   EXPECT_FALSE(turned.is_exact);
   EXPECT_EQ(turned.verdict, Verdict::no);
@@ -94,11 +92,11 @@ TEST(Inversion, IsDecidedInFloatingPointUnlessItIsDegenerate) {
   // The other orientation, and none.
   Query mirrored = falling_to(-3.0);
   for (const std::size_t end : {0U, 1U}) mirrored.at(end, 3, 2) = -mirrored.at(end, 3, 2);
-  const CertifiedResult inverted = inversion(mirrored);
+  const Inversion inverted = inversion(mirrored);
   EXPECT_EQ(std::tuple(inverted.verdict, inverted.start, inverted.is_exact),
             std::tuple(Verdict::yes, -1, false));
   EXPECT_EQ(std::pair(inverted.toi_lower, inverted.toi_upper), std::pair(0.0, 0.0));
-  const CertifiedResult flat = inversion(Query{});
+  const Inversion flat = inversion(Query{});
   EXPECT_EQ(std::tuple(flat.verdict, flat.start, flat.toi_upper), std::tuple(Verdict::yes, 0, 0.0));
 }
 
@@ -111,32 +109,27 @@ TEST(Inversion, RefusesWhatIsNoInput) {
     for (const double number : {not_a_number, std::numeric_limits<double>::infinity()}) {
       std::vector<Query> several(9, falling_to(-3.0));
       several[4].coordinates.at(i) = number;
-      const auto results = inversions(Kind::tetrahedron, several);
+      const auto results = inversions(CellKind::tetrahedron, several);
       for (std::size_t k = 0; k < results.size(); ++k) {
         EXPECT_EQ(results[k].verdict, k == 4 ? Verdict::error : Verdict::yes) << i;
       }
     }
   }
-  for (const Kind kind : {Kind::tetrahedron, Kind::plane_triangle}) {
-    const Query element = falling_to(1.0);
-    const CertifiedOptions near{.separation = {.distance = 1.0}};
-    EXPECT_THROW(static_cast<void>(solve(kind, element, near)), std::invalid_argument);
-    EXPECT_THROW(static_cast<void>(inversions(kind, {2, element}, near)), std::invalid_argument);
-    EXPECT_THROW(static_cast<void>(distance(kind, element, 0.0)), std::invalid_argument);
-    EXPECT_THROW(static_cast<void>(tight_inclusion(kind, element)), std::invalid_argument);
+  for (const CellKind kind : cell_kinds) {
     const std::vector<double> curve(36);
-    std::vector<CertifiedResult> one(1);
-    EXPECT_THROW(solve(Queries({.kind = kind, .degree = 2}, curve), one), std::invalid_argument);
+    std::vector<Inversion> one(1);
+    EXPECT_THROW(fast::inversions(Cells({.kind = kind, .degree = 2}, curve), one),
+                 std::invalid_argument);
   }
 }
 
 // ---- Beside the oracle --------------------------------------------------------------------------
 
 /// Half of them degenerate.
-std::vector<Query> elements(Random& random, int count) {
+std::vector<Query> cells(Random& random, int count) {
   std::vector<Query> result;
   for (int i = 0; i < count; ++i) {
-    result.push_back(tests::element_of_sort(random, i % tests::sorts_of_elements));
+    result.push_back(tests::cell_of_sort(random, i % tests::sorts_of_cells));
   }
   return result;
 }
@@ -144,8 +137,8 @@ std::vector<Query> elements(Random& random, int count) {
 TEST(Inversion, AgreesWithTheOracleOnTetrahedra) {
   const int count = soak_trials(100'000, 10);
   Random random(1);
-  const std::vector<Query> all = elements(random, count);
-  const auto results = inversions(Kind::tetrahedron, all);
+  const std::vector<Query> all = cells(random, count);
+  const auto results = inversions(CellKind::tetrahedron, all);
   std::array<int, 3> starts{};
   int exact = 0, first_times = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -157,7 +150,7 @@ TEST(Inversion, AgreesWithTheOracleOnTetrahedra) {
   }
   for (const int some : starts) EXPECT_GT(some, count / 20);
   EXPECT_GT(first_times, count / 5);
-  // The exact stage is for degenerate elements.
+  // The exact stage is for degenerate cells.
   EXPECT_GT(exact, count / 20);
   EXPECT_LT(exact, count / 3);
 }
@@ -182,10 +175,10 @@ TEST(Inversion, AgreesWithTheOracleOnTriangles) {
     triangle.at(end, 3, random.coin() ? 0 : 2) = not_a_number;  // has no effect
     all.push_back(triangle);
   }
-  const auto results = inversions(Kind::plane_triangle, all);
+  const auto results = inversions(CellKind::plane_triangle, all);
   int first_times = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const Query tetrahedron = to_tetrahedron(Kind::plane_triangle, all[i]);
+    const Query tetrahedron = to_tetrahedron(CellKind::plane_triangle, all[i]);
     const tests::InversionTruth truth = inversion_truth(tetrahedron);
     ASSERT_EQ(inversion_fault(truth, results[i]), std::nullopt) << i << ' ' << printed(tetrahedron);
     first_times += truth.start > 0 && truth.inverts() ? 1 : 0;
@@ -196,9 +189,9 @@ TEST(Inversion, AgreesWithTheOracleOnTriangles) {
 /// Limits at the ends of the enclosure and far from it, and other tolerances.
 TEST(Inversion, KeepsLimitAndTolerance) {
   Random random(3);
-  for (const Query& query : elements(random, soak_trials(4000, 10))) {
+  for (const Query& query : cells(random, soak_trials(4000, 10))) {
     const tests::InversionTruth truth = inversion_truth(query);
-    const CertifiedResult result = inversion(query);
+    const Inversion result = inversion(query);
     std::vector<double> limits{0.0, 0.5};
     if (result.verdict == Verdict::yes) {
       limits.insert(limits.end(), {result.toi_lower, result.toi_upper,
@@ -206,7 +199,7 @@ TEST(Inversion, KeepsLimitAndTolerance) {
     }
     for (const double t_max : limits) {
       for (const double tolerance : {0.0, 1e-12, 1e-3}) {
-        const CertifiedOptions options{.toi_tolerance = tolerance, .t_max = t_max};
+        const InversionOptions options{.toi_tolerance = tolerance, .t_max = t_max};
         ASSERT_EQ(inversion_fault(truth, inversion(query, options), options), std::nullopt)
             << t_max << ' ' << tolerance << ' ' << printed(query);
       }
@@ -219,9 +212,9 @@ TEST(Inversion, KeepsAPartOfTheVolume) {
   Random random(6);
   int limited = 0;
   for (const double kept : {0.5, 0.1, 1 - 0x1p-53, 0x1p-1074, random.uniform(0.0, 1.0)}) {
-    const std::vector<Query> all = elements(random, soak_trials(2000, 10));
+    const std::vector<Query> all = cells(random, soak_trials(2000, 10));
     for (const double t_max : {1.0, 0.5}) {
-      const CertifiedOptions options{.t_max = t_max};
+      const InversionOptions options{.t_max = t_max};
       const auto results = inversions_keeping(all, kept, options);
       for (std::size_t i = 0; i < all.size(); ++i) {
         const tests::InversionTruth truth = inversion_truth(all[i], kept);
@@ -237,7 +230,7 @@ TEST(Inversion, KeepsAPartOfTheVolume) {
 // ---- Ways to ask --------------------------------------------------------------------------------
 
 using Bits = std::array<std::uint64_t, 2>;
-std::tuple<Verdict, bool, int, Bits> bits_of(const CertifiedResult& x) {
+std::tuple<Verdict, bool, int, Bits> bits_of(const Inversion& x) {
   return {x.verdict, x.is_exact, x.start,
           std::bit_cast<Bits>(std::array{x.toi_lower, x.toi_upper})};
 }
@@ -245,7 +238,7 @@ std::tuple<Verdict, bool, int, Bits> bits_of(const CertifiedResult& x) {
 /// Alone, in an array and of a mesh, by every kernel and in every mode of the caller.
 TEST(Inversion, HasTheSameBitsAnyWay) {
   Random random(4);
-  const std::vector<Query> all = elements(random, trials(4000));
+  const std::vector<Query> all = cells(random, trials(4000));
   const auto rows = static_cast<Eigen::Index>(4 * all.size());
   Eigen::MatrixXd start(rows, 3), end(rows, 3);
   std::vector<Tetrahedron> tetrahedra;
@@ -259,23 +252,23 @@ TEST(Inversion, HasTheSameBitsAnyWay) {
     tetrahedra.push_back({first, first + 1, first + 2, first + 3});
     faces.push_back({first, first + 1, first + 2});
   }
-  const auto of_tetrahedra = inversions(Kind::tetrahedron, all);
-  const auto of_triangles = inversions(Kind::plane_triangle, all);
+  const auto of_tetrahedra = inversions(CellKind::tetrahedron, all);
+  const auto of_triangles = inversions(CellKind::plane_triangle, all);
   const auto of_kept = inversions_keeping(all, 0.25, {.t_max = 0.75});
   for (std::size_t i = 0; i < all.size(); ++i) {
     ASSERT_EQ(bits_of(inversion(all[i])), bits_of(of_tetrahedra[i])) << printed(all[i]);
-    ASSERT_EQ(bits_of(solve(Kind::plane_triangle, all[i])), bits_of(of_triangles[i]));
-    const Query raised = to_tetrahedron(Kind::plane_triangle, all[i]);
+    ASSERT_EQ(bits_of(fast::inversion(CellKind::plane_triangle, all[i])), bits_of(of_triangles[i]));
+    const Query raised = to_tetrahedron(CellKind::plane_triangle, all[i]);
     ASSERT_EQ(bits_of(inversion(raised)), bits_of(of_triangles[i])) << printed(all[i]);
   }
   for (const CertifiedKernel* const kernel : certified_kernels()) {
     SCOPED_TRACE(to_string(kernel->instructions));
     const tests::ChangedModes changed(tests::flush_to_zero | tests::subnormals_are_zero |
                                       tests::round_up);
-    const auto again =
-        inversions(Kind::tetrahedron, all, {.max_threads = 1, .kernels = {.certified = kernel}});
+    const auto again = inversions(CellKind::tetrahedron, all,
+                                  {.max_threads = 1, .kernels = {.certified = kernel}});
     const auto triangles_again =
-        inversions(Kind::plane_triangle, all, {.kernels = {.certified = kernel}});
+        inversions(CellKind::plane_triangle, all, {.kernels = {.certified = kernel}});
     const auto kept_again =
         inversions_keeping(all, 0.25, {.t_max = 0.75, .kernels = {.certified = kernel}});
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -286,10 +279,10 @@ TEST(Inversion, HasTheSameBitsAnyWay) {
     const Step step(start, end, {.tetrahedra = tetrahedra, .plane_triangles = faces},
                     {.solve = {.kernels = {.certified = kernel}}});
     std::vector<StepInversion> expected;
-    for (const auto& [kind, results] : {std::pair(Kind::tetrahedron, &of_tetrahedra),
-                                        std::pair(Kind::plane_triangle, &of_triangles)}) {
+    for (const auto& [kind, results] : {std::pair(CellKind::tetrahedron, &of_tetrahedra),
+                                        std::pair(CellKind::plane_triangle, &of_triangles)}) {
       for (std::size_t i = 0; i < results->size(); ++i) {
-        const CertifiedResult& one = results->at(i);
+        const Inversion& one = results->at(i);
         if (one.verdict != Verdict::yes) continue;
         expected.push_back(
             {kind, static_cast<std::int32_t>(i), one.start, one.toi_lower, one.toi_upper});
@@ -301,15 +294,15 @@ TEST(Inversion, HasTheSameBitsAnyWay) {
 
 // ---- Planted faults -----------------------------------------------------------------------------
 
-/// The number of elements with a wrong answer.
+/// The number of cells with a wrong answer.
 template <class Decide>
-int elements_that_find(Decide& decide, const Kernels& kernels) {
+int cells_that_find(Decide& decide, const Kernels& kernels) {
   Random random(5);
   int found = 0;
-  const std::vector<Query> all = elements(random, 4000);
+  const std::vector<Query> all = cells(random, 4000);
   for (const double kept : {0.0, 0.25}) {
     for (const double t_max : {1.0, 0.5}) {
-      const CertifiedOptions options{.t_max = t_max, .kernels = kernels};
+      const InversionOptions options{.t_max = t_max, .kernels = kernels};
       const auto results = inversions_keeping(all, kept, options, decide);
       for (std::size_t i = 0; i < all.size(); ++i) {
         found += inversion_fault(inversion_truth(all[i], kept), results[i], options) ? 1 : 0;
@@ -325,10 +318,10 @@ int elements_that_find(Decide& decide, const Kernels& kernels) {
   return found;
 }
 
-TEST(Inversion, ElementsFindPlantedFaults) {
+TEST(Inversion, CellsFindPlantedFaults) {
   const auto expect_found = [](std::string_view name, auto& decide, const Kernels& kernels = {}) {
-    const int found = elements_that_find(decide, kernels);
-    std::printf("%s: found by %d elements\n", name.data(), found);
+    const int found = cells_that_find(decide, kernels);
+    std::printf("%s: found by %d cells\n", name.data(), found);
     EXPECT_GT(found, 0) << name;
   };
   for (const auto& planted : tests::planted_faults().inversion) {
@@ -336,7 +329,7 @@ TEST(Inversion, ElementsFindPlantedFaults) {
   }
   for (const auto& planted : tests::planted_faults().inversion_kernel) {
     if (!planted.is_to_be_found()) continue;
-    expect_found(planted.name, decide_elements, {.certified = planted.part});
+    expect_found(planted.name, decide_cells, {.certified = planted.part});
   }
 }
 

@@ -12,7 +12,7 @@
 
 #include "fast/distance/exact_distance.hpp"
 #include "tests/faults/planted_faults.hpp"
-#include "tests/support/inverting_elements.hpp"
+#include "tests/support/inverting_cells.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
@@ -64,8 +64,8 @@ TEST(LineSearch, SaysWhatIsTooSmallForDoubles) {
 
 /// True if a pair, up to that time, comes nearer than p times its distance or the scene's, by the
 /// oracle.
-bool comes_nearer(Kind kind, const Query& query, double time, Norm norm, double p, double distance,
-                  double thickness) {
+bool comes_nearer(ContactKind kind, const Query& query, double time, Norm norm, double p,
+                  double distance, double thickness) {
   // A pair is nearer than p d if it is within the next lower double.
   const Rational kept = Rational(thickness) + Rational(p) * Rational(distance);
   const double less = std::nextafter(exact::round_down(kept), 0.0);
@@ -82,7 +82,7 @@ std::string fault(const Scene& scene, const LineSearchLimit& limit, double p, No
   if (limit.distance != least->distance) return "distance";
   const tests::AllPairs all(scene);
   for (const auto& named : all.pairs()) {
-    const Kind kind = Step::kind_of(named.first);
+    const ContactKind kind = decided_as(named.first);
     const double distance = least->distance.lower;
     if (comes_nearer(kind, all.query(named), limit.step_size, norm, p, distance,
                      all.thickness(named))) {
@@ -95,7 +95,7 @@ std::string fault(const Scene& scene, const LineSearchLimit& limit, double p, No
   const double thickness = all.thickness({first.kind, first.pair});
   const double kept = (thickness + p * least->distance.upper) * (1.0 + 0x1p-40) + 2 * tiniest;
   const auto verdict =
-      exact::decide(Step::kind_of(first.kind), scene.step().query_of(first.kind, first.pair),
+      exact::decide(decided_as(first.kind), scene.step().query_of(first.kind, first.pair),
                     {.distance = kept, .norm = norm});
   if (!verdict.collides()) return "not limited";
   const bool is_first = *verdict.toi <= exact::AlgebraicNumber(Rational(first.toi_upper));
@@ -109,7 +109,7 @@ double limit_of_pairs(const Scene& scene, double p, Norm norm, double t_max) {
   for (const auto& named : all.pairs()) {
     const double thickness = all.thickness(named);
     if (!all.are_near(named, thickness)) continue;
-    const Kind kind = Step::kind_of(named.first);
+    const ContactKind kind = decided_as(named.first);
     const Query query = all.query(named);
     const Distance apart = exact_distance(kind, query, 0.0, norm);
     const double between = exact::round_up(Rational(apart.upper) - Rational(thickness));
@@ -162,7 +162,7 @@ TEST(LineSearch, KeepsAllApartAndGoesAsFarAsThatAllows) {
   EXPECT_GT((seen[{StartDistance::of_scene, LineSearchStatus::whole}]), tests::trials(20));
 }
 
-/// The first fault of a limit with elements: it has to be the lesser one of the limit without them
+/// The first fault of a limit with cells: it has to be the lesser one of the limit without them
 /// and of their own first times, and to name all that may set it.
 std::string fault_of_volumes(tests::LimitStep& limit_of, int rounds,
                              std::map<LineSearchStatus, int>& seen) {
@@ -180,14 +180,14 @@ std::string fault_of_volumes(tests::LimitStep& limit_of, int rounds,
       double upper = 2.0, lower = expected.step_size;
       for (const auto& one : expected.pairs) upper = std::min(upper, one.toi_upper);
       bool all_start = true;
-      tests::for_each_volume(scene, [&](Kind kind, std::size_t i, const Query& query) {
+      tests::for_each_volume(scene, [&](CellKind kind, std::size_t i, const Query& query) {
         const auto truth = tests::inversions_keeping({&query, 1}, options.kept_volume)[0];
         if (truth.verdict != Verdict::yes) return;
         all_start = all_start && truth.start > 0;
         upper = std::min(upper, truth.toi_upper);
         lower = std::min(lower, truth.toi_lower);
         expected.inversions.push_back({.kind = kind,
-                                       .element = static_cast<std::int32_t>(i),
+                                       .cell = static_cast<std::int32_t>(i),
                                        .start = truth.start,
                                        .toi_lower = truth.toi_lower,
                                        .toi_upper = truth.toi_upper});
@@ -203,7 +203,7 @@ std::string fault_of_volumes(tests::LimitStep& limit_of, int rounds,
       const LineSearchLimit limit = limit_of(scene.step(), p, options);
       ++seen[limit.inversions.empty() ? LineSearchStatus::whole : limit.status];
       if (limit.step_size != lower || limit.status != expected.status) return shape.name;
-      if (limit.inversions != expected.inversions) return shape.name + ": other elements";
+      if (limit.inversions != expected.inversions) return shape.name + ": other cells";
       if (limit.pairs != expected.pairs) return shape.name + ": other pairs";
     }
   }

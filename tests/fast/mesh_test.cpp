@@ -100,5 +100,22 @@ TEST(Elements, AreRefusedInOtherShapesAndOutOfRange) {
   }
 }
 
+/// One cell after the other, of each kind.
+TEST(Elements, HaveTheCornersOfCellsInARow) {
+  const Mesh mesh{.faces = some_faces,
+                  .tetrahedra = {{3, 1, 4, 0}, {2, 7, 1, 8}, {0, 0, 0, 5}},
+                  .plane_triangles = {{2, 0, 1}, {6, 5, 4}}};
+  EXPECT_EQ(mesh.count_of(CellKind::tetrahedron), 3U);
+  EXPECT_EQ(mesh.count_of(CellKind::plane_triangle), 2U);
+  EXPECT_TRUE(std::ranges::equal(mesh.corners_of(CellKind::tetrahedron),
+                                 std::array{3, 1, 4, 0, 2, 7, 1, 8, 0, 0, 0, 5}));
+  EXPECT_TRUE(
+      std::ranges::equal(mesh.corners_of(CellKind::plane_triangle), std::array{2, 0, 1, 6, 5, 4}));
+  for (const CellKind kind : cell_kinds) {
+    EXPECT_TRUE(Mesh{.faces = some_faces}.corners_of(kind).empty());
+    EXPECT_EQ(Mesh{}.count_of(kind), 0U);
+  }
+}
+
 }  // namespace
 }  // namespace touchstone::fast::mesh_test

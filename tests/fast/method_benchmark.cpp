@@ -27,20 +27,20 @@ namespace touchstone {
 namespace {
 
 /// Draws a query that may belong to a class.
-using Draw = Query (*)(tests::Random&, Kind);
+using Draw = Query (*)(tests::Random&, ContactKind);
 
-Query generic(tests::Random& random, Kind /*kind*/) {
+Query generic(tests::Random& random, ContactKind /*kind*/) {
   return tests::full_significand_query(random);
 }
 
-Query coplanar(tests::Random& random, Kind kind) {
+Query coplanar(tests::Random& random, ContactKind kind) {
   Query query = generic(random, kind);
   tests::flatten(query, 2);
   return query;
 }
 
 /// Random queries, of this verdict if there is one.
-std::vector<Query> random_queries(Kind kind, Draw draw, std::optional<bool> collides) {
+std::vector<Query> random_queries(ContactKind kind, Draw draw, std::optional<bool> collides) {
   tests::Random random(5);
   std::vector<Query> queries;
   while (queries.size() < 256) {
@@ -53,7 +53,7 @@ std::vector<Query> random_queries(Kind kind, Draw draw, std::optional<bool> coll
 
 /// One query in each iteration.
 void register_oracle(const std::string& name, Draw draw, std::optional<bool> collides) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     benchmark::RegisterBenchmark(
         ("oracle/" + name + "/" + std::string(to_string(kind))).c_str(),
         [kind, queries = random_queries(kind, draw, collides)](benchmark::State& state) {
@@ -76,7 +76,7 @@ double seconds(const std::function<void()>& work) {
 }
 
 struct CurvedSet {
-  Kind kind;
+  ContactKind kind;
   std::size_t degree;
   bool is_rational;
   std::vector<double> numbers;
@@ -85,11 +85,11 @@ struct CurvedSet {
   [[nodiscard]] Queries queries() const { return {{kind, degree, is_rational}, numbers}; }
 };
 
-CurvedSet random_curves(Kind kind, std::size_t degree, bool is_rational, double reach) {
+CurvedSet random_curves(ContactKind kind, std::size_t degree, bool is_rational, double reach) {
   constexpr int count = 20'000;
   CurvedSet set{kind, degree, is_rational, {}, {}};
   tests::Random random(5);
-  const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+  const std::size_t second = kind == ContactKind::vertex_face ? 1 : 2;
   for (int i = 0; i < count; ++i) {
     Query& line = set.lines.emplace_back();
     std::array<double, 3> place{};
@@ -136,7 +136,7 @@ void time_curves(benchmark::State& state, const CurvedSet& set) {
 }
 
 void register_curves() {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     for (const auto& [form, degree] :
          {std::pair("degree 2", 2U), {"degree 3", 3U}, {"rational", 2U}}) {
       for (const auto& [where, reach] : {std::pair("far", 2.0), {"near", 0.7}}) {

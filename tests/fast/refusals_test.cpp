@@ -94,7 +94,7 @@ std::vector<Refusal> refusals() {
        }},
       {"time_of_contact", no_time,
        [](double x) {
-         (void)contact_at(step(), PairKind::vertex_face, {3, 0}, x);
+         (void)contact_at(step(), ContactKind::vertex_face, {3, 0}, x);
        }},
       {"time_of_collision", no_time,
        [](double x) {
@@ -129,7 +129,13 @@ std::vector<Refusal> refusals() {
        }},
       {"size_of_scaled_step", no_time, [](double x) { (void)step().scaled(x); }},
       {"time_of_inversion", no_time,
-       [](double x) { (void)solve(Kind::tetrahedron, posed.query, {.t_max = x}); }},
+       [](double x) { (void)inversion(CellKind::tetrahedron, posed.query, {.t_max = x}); }},
+      {"tolerance_of_inversion", no_distance,
+       [](double x) { (void)inversion(CellKind::tetrahedron, posed.query, {.toi_tolerance = x}); }},
+      {"threads_of_inversion", no_count,
+       [](double x) {
+         (void)inversion(CellKind::tetrahedron, posed.query, {.max_threads = static_cast<int>(x)});
+       }},
       {"share_of_line_search", {0.0, -0.5, 1.0, 1.0 - 0x1p-52, nan}, [](double x) {
          (void)line_search_limit(step(), x);
        }}};
@@ -155,17 +161,15 @@ TEST_P(Refused, OutOfRange) {
 INSTANTIATE_TEST_SUITE_P(Is, Refused, testing::ValuesIn(refusals()),
                          [](const auto& tested) { return tested.param.name; });
 
-/// Spans of results that do not fit the queries.
-TEST(Refusals, OfElementsWithVolumes) {
+TEST(Refusals, OfCellsOutOfRange) {
   const Eigen::MatrixX3d x = Eigen::MatrixX3d::Zero(4, 3);
   EXPECT_THROW(Step(x, x, {.tetrahedra = {{0, 1, 2, 4}}}), std::out_of_range);
   const Step of_flat(x, x, {.plane_triangles = {{0, 1, 2}}});
   EXPECT_EQ(of_flat.inversions().size(), 1U);
-  for (const auto& [kind, number] : {std::pair(Kind::plane_triangle, 1),
-                                     {Kind::plane_triangle, -1},
-                                     {Kind::tetrahedron, 0},
-                                     {Kind::vertex_face, 0}}) {
-    EXPECT_THROW((void)of_flat.query_of(kind, number), std::out_of_range);
+  for (const auto& [kind, number] : {std::pair(CellKind::plane_triangle, 1),
+                                     {CellKind::plane_triangle, -1},
+                                     {CellKind::tetrahedron, 0}}) {
+    EXPECT_THROW((void)of_flat.tetrahedron_of(kind, number), std::out_of_range);
   }
   for (const double kept : {-0x1p-1074, 1.0, infinity, nan}) {
     EXPECT_THROW((void)line_search_limit(step(), 0.5, {.kept_volume = kept}),
@@ -173,9 +177,13 @@ TEST(Refusals, OfElementsWithVolumes) {
   }
 }
 
+/// Spans of results that do not fit the queries.
 TEST(Refusals, OfSpansOfOtherLengths) {
   std::vector<CertifiedResult> results(2);
   EXPECT_THROW(solve({posed.kind, std::span(&posed.query, 1)}, results), std::invalid_argument);
+  std::vector<Inversion> inverted(2);
+  EXPECT_THROW(inversions({CellKind::tetrahedron, std::span(&posed.query, 1)}, inverted),
+               std::invalid_argument);
   std::vector<Distance> apart(2);
   EXPECT_THROW(distances(posed.kind, std::span(&posed.query, 1), 0.0, Norm::l2, apart),
                std::invalid_argument);
@@ -197,10 +205,10 @@ TEST(Refusals, OfDistancesOfWhatIsNotFinite) {
 /// The scene has 4 vertices, 1 face and 3 edges.
 TEST(Refusals, OfPairsOutOfRange) {
   const Step asked = step();
-  const std::vector<std::pair<PairKind, IndexPair>> kinds{{PairKind::vertex_face, {3, 0}},
-                                                          {PairKind::edge_edge, {2, 2}},
-                                                          {PairKind::vertex_edge, {3, 2}},
-                                                          {PairKind::vertex_vertex, {3, 3}}};
+  const std::vector<std::pair<ContactKind, IndexPair>> kinds{{ContactKind::vertex_face, {3, 0}},
+                                                             {ContactKind::edge_edge, {2, 2}},
+                                                             {ContactKind::vertex_edge, {3, 2}},
+                                                             {ContactKind::vertex_vertex, {3, 3}}};
   for (const auto& [kind, last] : kinds) {
     EXPECT_NO_THROW((void)asked.query_of(kind, last));
     for (const std::size_t which : {0U, 1U}) {

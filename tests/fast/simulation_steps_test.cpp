@@ -29,7 +29,7 @@ using tests::SimulationStep;
 using Pairs = std::vector<IndexPair>;
 
 struct Published {
-  Kind kind;
+  ContactKind kind;
   std::size_t candidates, collisions;
 };
 struct PublishedStep {
@@ -43,10 +43,12 @@ struct PublishedStep {
 
 constexpr auto published = std::to_array<PublishedStep>({
     {"cloth-ball",
-     {{{Kind::vertex_face, 1'655'541, 19'032}, {Kind::edge_edge, 5'197'332, 94'822}}}},
+     {{{ContactKind::vertex_face, 1'655'541, 19'032},
+       {ContactKind::edge_edge, 5'197'332, 94'822}}}},
     {"armadillo-rollers",
-     {{{Kind::vertex_face, 2'031'902, 4'650}, {Kind::edge_edge, 5'068'080, 19'308}}}},
-    {"cloth-funnel", {{{Kind::vertex_face, 7'319, 27}, {Kind::edge_edge, 33'770, 107}}}},
+     {{{ContactKind::vertex_face, 2'031'902, 4'650}, {ContactKind::edge_edge, 5'068'080, 19'308}}}},
+    {"cloth-funnel",
+     {{{ContactKind::vertex_face, 7'319, 27}, {ContactKind::edge_edge, 33'770, 107}}}},
 });
 
 Pairs sorted(Pairs pairs) {
@@ -57,7 +59,7 @@ Pairs sorted(Pairs pairs) {
 /// Compares the label of one query in `stride` with the oracle.
 constexpr std::size_t stride = 97;
 
-Pairs labelled_true(const SimulationStep& step, Kind kind) {
+Pairs labelled_true(const SimulationStep& step, ContactKind kind) {
   const tests::LabelledPairs& labelled = step.labelled(kind);
   Pairs result;
   for (std::size_t i = 0; i < labelled.pairs.size(); ++i) {
@@ -82,9 +84,9 @@ TEST_P(SimulationSteps, HaveThePublishedCandidatesAndCollisions) {
     SCOPED_TRACE(std::string(to_string(kind)));
     const Pairs truth = labelled_true(scene, kind);
     EXPECT_EQ(truth.size(), expected);
-    const Pairs found =
-        sorted(kind == Kind::vertex_face ? vertex_face_candidates(scene.vertices, scene.faces)
-                                         : edge_edge_candidates(scene.vertices, scene.edges));
+    const Pairs found = sorted(kind == ContactKind::vertex_face
+                                   ? vertex_face_candidates(scene.vertices, scene.faces)
+                                   : edge_edge_candidates(scene.vertices, scene.edges));
     EXPECT_EQ(found.size(), candidates);
     for (const IndexPair& pair : scene.labelled(kind).pairs) {
       EXPECT_TRUE(std::ranges::binary_search(found, pair));
@@ -92,7 +94,7 @@ TEST_P(SimulationSteps, HaveThePublishedCandidatesAndCollisions) {
     EXPECT_TRUE(std::ranges::includes(found, truth));
     Pairs of_step;
     for (const StepCollision& one : all) {
-      if (Step::kind_of(one.kind) == kind) of_step.push_back(one.pair);
+      if (decided_as(one.kind) == kind) of_step.push_back(one.pair);
     }
     EXPECT_EQ(sorted(of_step), truth);
   }

@@ -31,7 +31,7 @@
 #include "fast/step/sieve.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified_against_oracle.hpp"
-#include "tests/support/inverting_elements.hpp"
+#include "tests/support/inverting_cells.hpp"
 #include "tests/support/messages.hpp"
 #include "tests/support/process_memory.hpp"
 #include "tests/support/random.hpp"
@@ -55,8 +55,9 @@ using tests::Shape;
 using tests::shapes;
 using tests::soup;
 
-constexpr auto kinds = std::to_array<PairKind>(
-    {PairKind::vertex_face, PairKind::edge_edge, PairKind::vertex_edge, PairKind::vertex_vertex});
+constexpr auto kinds =
+    std::to_array<ContactKind>({ContactKind::vertex_face, ContactKind::edge_edge,
+                                ContactKind::vertex_edge, ContactKind::vertex_vertex});
 
 Pairs candidates_of(const Step& step) {
   Pairs result;
@@ -99,24 +100,26 @@ std::string fault_of_volumes(const Scene& scene, const StepOptions& options,
   std::string what;
   std::size_t next = 0;
   all_start = true;
-  tests::for_each_volume(scene, [&](Kind kind, std::size_t i, const Query& query) {
+  tests::for_each_volume(scene, [&](CellKind kind, std::size_t i, const Query& query) {
     const tests::InversionTruth truth = tests::inversion_truth(query);
     all_start = all_start && truth.start > 0;
-    CertifiedResult result{.verdict = Verdict::no, .start = 1};
+    Inversion result{.verdict = Verdict::no, .start = 1};
     if (next < inversions.size() && inversions[next].kind == kind &&
-        std::cmp_equal(inversions[next].element, i)) {
+        std::cmp_equal(inversions[next].cell, i)) {
       const StepInversion& one = inversions[next++];
       result = {.verdict = Verdict::yes,
                 .start = one.start,
                 .toi_lower = one.toi_lower,
                 .toi_upper = one.toi_upper};
     }
-    const auto fault = tests::inversion_fault(truth, result, options.solve);
+    const auto fault = tests::inversion_fault(
+        truth, result,
+        {.toi_tolerance = options.solve.toi_tolerance, .t_max = options.solve.t_max});
     if (fault && what.empty()) {
       what = *fault + ": " + std::string(to_string(kind)) + " " + std::to_string(i);
     }
   });
-  return what.empty() && next < inversions.size() ? "no element in order" : what;
+  return what.empty() && next < inversions.size() ? "no cell in order" : what;
 }
 
 std::string named(const NumberedPair& pair) {
@@ -140,7 +143,7 @@ std::string fault(const Scene& scene, const StepOptions& options) {
       return "another separation: " + named(pair);
     }
     if (all.are_near(pair, separation.distance)) near.push_back(pair);
-    const Kind kind = Step::kind_of(pair.first);
+    const ContactKind kind = decided_as(pair.first);
     const Query query = all.query(pair);
     if (step.query_of(pair.first, pair.second) != query) return "another query: " + named(pair);
     if (!std::ranges::equal(step.vertices_of(pair.first, pair.second), all.vertices(pair))) {
@@ -166,10 +169,10 @@ std::string fault(const Scene& scene, const StepOptions& options) {
   if (candidates_of(step) != near) return "other candidates";
   bool all_start = true, has_queries = true;
   const std::vector<StepInversion> inversions = step.inversions();
-  tests::for_each_volume(scene, [&](Kind kind, std::size_t i, const Query& query) {
-    has_queries = has_queries && step.query_of(kind, static_cast<std::int32_t>(i)) == query;
+  tests::for_each_volume(scene, [&](CellKind kind, std::size_t i, const Query& query) {
+    has_queries = has_queries && step.tetrahedron_of(kind, static_cast<std::int32_t>(i)) == query;
   });
-  if (!has_queries) return "another query of an element";
+  if (!has_queries) return "another tetrahedron of a cell";
   const std::string what = fault_of_volumes(scene, options, inversions, all_start);
   if (!what.empty()) return what;
   if (step.starts_free() != (all_start && step.intersections_at_start().empty())) {
@@ -259,8 +262,8 @@ TEST_P(StepOnScenes, AgreesWithTheOracleOnAllPairsAndElements) {
   }
   EXPECT_EQ(first_fault(scenes), "");
   // They have collisions of all kinds, with groups and without, and some are free; most need their
-  // thickness. First come collisions, and inversions; elements are flat, inverted, or neither.
-  std::map<PairKind, int> touching;
+  // thickness. First come collisions, and inversions; cells are flat, inverted, or neither.
+  std::map<ContactKind, int> touching;
   std::map<int, int> starts;
   int free = 0, with_groups = 0, with_rule = 0, contacts_first = 0, inversions_first = 0;
   std::size_t thin = 0, all = 0;
@@ -282,7 +285,7 @@ TEST_P(StepOnScenes, AgreesWithTheOracleOnAllPairsAndElements) {
     thin += without.step(options).collisions().size();
     all += collisions.size();
   }
-  for (const PairKind kind : kinds) EXPECT_GT(touching[kind], 5) << to_string(kind);
+  for (const ContactKind kind : kinds) EXPECT_GT(touching[kind], 5) << to_string(kind);
   EXPECT_GT(std::min({free, with_groups, with_rule}), 10);
   EXPECT_EQ(all > thin + thin / 10, are_thick);
   for (const int start : {-1, 0, 1}) EXPECT_EQ(starts[start] > 5, have_volumes) << start;
@@ -423,7 +426,7 @@ bool intersects_itself(const Scene& scene, const Places& places) {
   std::vector<Edge> edges;
   for (const auto& [a, b] : scene.edges) edges.push_back({a + count, b + count});
   const auto share_no_vertex = [&](const Intersection& one) {
-    if (one.elements != std::array{ElementKind::face, ElementKind::edge}) return false;
+    if (one.elements != std::array{PrimitiveKind::face, PrimitiveKind::edge}) return false;
     const Face& corners = scene.faces[static_cast<std::size_t>(one.numbers[0])];
     return std::ranges::none_of(scene.edges[static_cast<std::size_t>(one.numbers[1])],
                                 [&](std::int32_t i) { return std::ranges::count(corners, i) > 0; });
@@ -552,7 +555,7 @@ TEST(Step, EarliestFindsImpactsAtAnyTime) {
     EXPECT_GE(impact->toi_upper, time);
     EXPECT_LE(impact->toi_upper, time * (1 + 1e-12));
     ASSERT_EQ(impact->pairs.size(), 1U);
-    EXPECT_EQ(impact->pairs[0].kind, PairKind::vertex_face);
+    EXPECT_EQ(impact->pairs[0].kind, ContactKind::vertex_face);
     EXPECT_EQ(impact->pairs[0].pair, (IndexPair{1803, 600}));
     EXPECT_FALSE(scene.step({.solve = {.t_max = time}}).is_free());
     EXPECT_TRUE(scene.step({.solve = {.t_max = std::nextafter(time, 0.0)}}).is_free());
@@ -943,10 +946,11 @@ TEST(KeptScene, AnySequenceGivesTheAnswersOfFreshSteps) {
 Pairs possible(const Step& step, double t_limit) {
   Pairs result;
   std::mutex mutex;
-  for_each_possible_collision(scene_of(step), t_limit, [&](PairKind kind, const IndexPair& pair) {
-    const std::scoped_lock lock(mutex);
-    result.emplace_back(kind, pair);
-  });
+  for_each_possible_collision(scene_of(step), t_limit,
+                              [&](ContactKind kind, const IndexPair& pair) {
+                                const std::scoped_lock lock(mutex);
+                                result.emplace_back(kind, pair);
+                              });
   return result;
 }
 
@@ -967,7 +971,7 @@ TEST(Sieve, LeavesOutNoneThatCollidesAndMostThatDoNot) {
       const AllPairs all(scene);
       for (const NumberedPair& named : all.pairs()) {
         const Separation of_pair{separation.distance + all.thickness(named), separation.norm};
-        const auto result = solve(Step::kind_of(named.first), all.query(named),
+        const auto result = solve(decided_as(named.first), all.query(named),
                                   {.t_max = t_limit, .separation = of_pair});
         const auto count = std::ranges::count(found, named);
         EXPECT_LE(count, 1);
@@ -1047,7 +1051,7 @@ TEST(StepOnCurves, HasTheCollisionsOfAllPairs) {
     for (const NumberedPair& pair : all.pairs()) {
       const Separation of_pair{separation.distance + all.thickness(pair), separation.norm};
       const exact::Decision truth =
-          exact::decide(Step::kind_of(pair.first), scene.query(all.vertices(pair)), of_pair);
+          exact::decide(decided_as(pair.first), scene.query(all.vertices(pair)), of_pair);
       if (!truth.toi) continue;
       expected.insert(pair);
       if (!first || *truth.toi < first->first) first = {*truth.toi, pair};
@@ -1097,7 +1101,7 @@ TEST(StepOnCurves, RefusesWhatNeedsStraightLines) {
   const std::vector<std::function<void()>> all{
       [&] { (void)step.scaled(0.5); },
       [&] { (void)step.free_step_size(); },
-      [&] { (void)step.query_of(PairKind::vertex_face, pair); },
+      [&] { (void)step.query_of(ContactKind::vertex_face, pair); },
       [&] { (void)contact_of(step, {.pair = pair}); },
       [&] { (void)contacts_of(step, {}); },
       [&] { (void)active_set(step, {}); },

@@ -55,7 +55,7 @@ TightInclusionResult solve(const PosedQuery& posed, const TightInclusionOptions&
 template <class Visit>
 void for_each_family_query(std::uint64_t count, const Visit& visit) {
   for (const verify::generate::Family& family : verify::generate::families()) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
       if (!verify::generate::supports(family, kind)) continue;
       for (std::uint64_t index = 0; index < count; ++index) {
         visit(family, kind, verify::generate::make_query(family, kind, seed, index));
@@ -86,22 +86,22 @@ std::string fault(const exact::Decision& truth, const TightInclusionOptions& opt
 /// Options for a query; none if it has no such options.
 struct NamedOptions {
   const char* name;
-  std::function<std::optional<TightInclusionOptions>(Kind, const Query&)> options_of;
+  std::function<std::optional<TightInclusionOptions>(ContactKind, const Query&)> options_of;
 };
 
 NamedOptions always(const char* name, const TightInclusionOptions& options) {
-  return {name, [options](Kind, const Query&) { return limited(options); }};
+  return {name, [options](ContactKind, const Query&) { return limited(options); }};
 }
 
 /// The least double that is not below the time of impact, as t_max.
-std::optional<TightInclusionOptions> until_impact(Kind kind, const Query& query) {
+std::optional<TightInclusionOptions> until_impact(ContactKind kind, const Query& query) {
   const exact::Decision truth = exact::decide(kind, query);
   if (!truth.collides()) return std::nullopt;
   return limited({.t_max = truth.toi->enclosure().upper});
 }
 
 /// The filter of a scene with coordinates up to 2000.
-std::optional<TightInclusionOptions> of_a_scene(Kind kind, const Query& query) {
+std::optional<TightInclusionOptions> of_a_scene(ContactKind kind, const Query& query) {
   constexpr double most = 2000.0;
   const auto is_far = [](double x) { return std::abs(x) > most; };
   if (std::ranges::any_of(query.coordinates, is_far)) return std::nullopt;
@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(Conservative, OnAllFamilies) {
   std::size_t decided = 0;
   for_each_family_query(
-      24, [&](const verify::generate::Family& family, Kind kind, const auto& known) {
+      24, [&](const verify::generate::Family& family, ContactKind kind, const auto& known) {
         const auto options = GetParam().options_of(kind, known.query);
         if (!options) return;
         const TightInclusionResult result = tight_inclusion(kind, known.query, *options);
@@ -145,9 +145,10 @@ TEST(TightInclusion, MissesNothingOnThePublicData) {
   for (const auto& file : files) {
     const auto source = verify::data::open_dataset(file);
     while (const auto recorded = source->next()) {
+      const ContactKind kind = source->kind().contact();
       const Query& query = recorded->query.straight();
-      const exact::Decision truth = exact::decide(source->kind(), query);
-      const auto result = tight_inclusion(source->kind(), query, limited());
+      const exact::Decision truth = exact::decide(kind, query);
+      const auto result = tight_inclusion(kind, query, limited());
       EXPECT_EQ(fault(truth, limited(), result), "") << file << ' ' << recorded->index;
       if (result.verdict == Verdict::yes && !truth.collides()) ++false_positives;
     }
@@ -159,14 +160,14 @@ TEST(TightInclusion, MissesNothingOnThePublicData) {
 
 /// A query without a collision whose points of least L∞ distance are `gap` apart along an axis, at
 /// t=1: the vertex or edge comes straight down and stops there.
-PosedQuery stops_above(Kind kind, double height, double gap) {
-  return kind == Kind::vertex_face ? over_triangle(1.0, 1.0, height, gap)
-                                   : over_edge(1.0, 2.0, height, gap);
+PosedQuery stops_above(ContactKind kind, double height, double gap) {
+  return kind == ContactKind::vertex_face ? over_triangle(1.0, 1.0, height, gap)
+                                          : over_edge(1.0, 2.0, height, gap);
 }
 
 /// Up to the filter.
 TEST(MinimumSeparation, ReachesHardlyFartherThanItSays) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     for (const double d : {0x1p-3, 0x1.8p-20, 0x1p-40, 0.1, 1e-10}) {
       const double filter = error_filter(kind, {4, 4, 1}, d)[2];
       const TightInclusionOptions options{.tolerance = filter / 8, .separation = {.distance = d}};
@@ -191,7 +192,7 @@ TEST(Tolerance, BoundsTheErrorOfTheTime) {
   for (const double tolerance : {1e-1, 1e-3, 1e-6, 1e-9}) {
     rows.push_back({over_triangle(1, 1, 1, -2), {.tolerance = tolerance}, Rational(1, 3), 3.0});
   }
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     for (const double d : {0x1p-1, 0x1p-3, 0x1p-10, 0x1p-30}) {
       rows.push_back({stops_above(kind, 1.0, -1.0),
                       {.separation = {.distance = d}},
@@ -259,9 +260,9 @@ TEST(SceneFilter, IsUsedAsItIs) {
 
 /// Coordinates of a few least subnormals on two axes and huge ones on the third; two points, one of
 /// each primitive, meet exactly at t=½.
-Query huge_and_tiny(Random& random, Kind kind) {
+Query huge_and_tiny(Random& random, ContactKind kind) {
   Query query{};
-  const std::size_t partner = kind == Kind::vertex_face ? 1 : 2;
+  const std::size_t partner = kind == ContactKind::vertex_face ? 1 : 2;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const int exponent = axis == 0 ? 990 : -1074;
     const auto set = [&](std::size_t end, std::size_t point, int whole) {
@@ -284,7 +285,7 @@ Query huge_and_tiny(Random& random, Kind kind) {
 TEST(Range, ASceneFilterCoversUnderflowOfHugeQueriesToo) {
   Random random(21);
   for (int i = 0; i < 20000; ++i) {
-    const Kind kind = random.coin() ? Kind::edge_edge : Kind::vertex_face;
+    const ContactKind kind = random.coin() ? ContactKind::edge_edge : ContactKind::vertex_face;
     const Query query = huge_and_tiny(random, kind);
     BoxProblem problem;
     const Extent extent = box_kernels().back()->load(query, problem);
@@ -322,7 +323,7 @@ bool is_wrong(const verify::generate::KnownQuery& known, const Answer& answer) {
 std::size_t families_that_find(const Method& method) {
   std::set<std::string_view> result;
   for_each_family_query(
-      100, [&](const verify::generate::Family& family, Kind kind, const auto& known) {
+      100, [&](const verify::generate::Family& family, ContactKind kind, const auto& known) {
         Answer answer;
         method.solve({kind, {&known.query, 1}}, std::span(&answer, 1), {.max_checks = some_checks});
         if (is_wrong(known, answer)) result.insert(family.name);
@@ -358,7 +359,7 @@ TEST(Method, RefusesToRunWithSubnormalsFlushed) {
 /// As the function, on lines and on curves; one query is not finite.
 TEST(Method, AnswersAsTheFunction) {
   Random random(105);
-  for (const QueryShape& shape : {QueryShape{}, {.kind = Kind::edge_edge, .degree = 3}}) {
+  for (const QueryShape& shape : {QueryShape{}, {.kind = ContactKind::edge_edge, .degree = 3}}) {
     std::vector<double> numbers(100 * shape.numbers_of_query());
     for (double& x : numbers) x = random.uniform(-1, 1);
     numbers[5] = infinity;
@@ -388,24 +389,27 @@ TEST(Method, AnswersAsTheFunction) {
 
 constexpr double least = std::numeric_limits<double>::denorm_min();
 
-double on_first_axis(Kind kind, double x_max, double d) {
+double on_first_axis(ContactKind kind, double x_max, double d) {
   return error_filter(kind, {x_max, 0.0, 0.0}, d)[0];
 }
 
 TEST(ErrorFilter, IsTheDerivedBoundAndTakesTheSeparationForACoordinate) {
-  EXPECT_EQ(on_first_axis(Kind::edge_edge, 3.0, 2.0), filters::edge_edge_separated_double(3.0));
-  EXPECT_EQ(on_first_axis(Kind::vertex_face, 3.0, 5.0), filters::vertex_face_separated_double(5.0));
-  EXPECT_EQ(on_first_axis(Kind::vertex_face, 3.0, least),
+  EXPECT_EQ(on_first_axis(ContactKind::edge_edge, 3.0, 2.0),
+            filters::edge_edge_separated_double(3.0));
+  EXPECT_EQ(on_first_axis(ContactKind::vertex_face, 3.0, 5.0),
+            filters::vertex_face_separated_double(5.0));
+  EXPECT_EQ(on_first_axis(ContactKind::vertex_face, 3.0, least),
             filters::vertex_face_separated_double(3.0));
 }
 
 TEST(ErrorFilter, IsInfiniteWhereOverflowCouldOccurAndNeverZero) {
-  EXPECT_EQ(on_first_axis(Kind::edge_edge, std::numeric_limits<double>::max(), 0.0), infinity);
-  EXPECT_EQ(on_first_axis(Kind::vertex_face, 1.0, 0x1p1022), infinity);
-  EXPECT_LT(on_first_axis(Kind::edge_edge, 0x1p1020, 0.0), infinity);
+  EXPECT_EQ(on_first_axis(ContactKind::edge_edge, std::numeric_limits<double>::max(), 0.0),
+            infinity);
+  EXPECT_EQ(on_first_axis(ContactKind::vertex_face, 1.0, 0x1p1022), infinity);
+  EXPECT_LT(on_first_axis(ContactKind::edge_edge, 0x1p1020, 0.0), infinity);
   // Nothing but underflow.
-  EXPECT_GT(on_first_axis(Kind::edge_edge, 0.0, 0.0), 0.0);
-  EXPECT_GT(on_first_axis(Kind::vertex_face, least, 0.0), least);
+  EXPECT_GT(on_first_axis(ContactKind::edge_edge, 0.0, 0.0), 0.0);
+  EXPECT_GT(on_first_axis(ContactKind::vertex_face, least, 0.0), least);
 }
 
 }  // namespace

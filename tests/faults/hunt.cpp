@@ -22,16 +22,16 @@ class WithExactStage final : public fast::Method {
   }
 
   [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
-  void solve(const Queries& queries, std::span<fast::Answer> answers,
+  void solve(const AnyQueries& queries, std::span<fast::Answer> answers,
              const fast::MethodOptions& options) const override {
     const fast::CertifiedOptions all{
         .t_max = options.t_max, .separation = options.separation, .max_threads = 1};
+    const ContactKind kind = queries.kind.contact();
     for (std::size_t i = 0; i < answers.size(); ++i) {
       const Query& query = queries.straight()[i];
-      fast::CertifiedResult result = fast::solve(queries.kind, query, all);
+      fast::CertifiedResult result = fast::solve(kind, query, all);
       if (result.is_exact && result.verdict != fast::Verdict::error) {
-        const auto impact =
-            decide_(queries.kind, query, all.separation, all.toi_tolerance, all.t_max);
+        const auto impact = decide_(kind, query, all.separation, all.toi_tolerance, all.t_max);
         result = {.verdict = impact ? fast::Verdict::yes : fast::Verdict::no};
         if (impact) result.toi_lower = impact->toi_lower, result.toi_upper = impact->toi_upper;
       }
@@ -85,7 +85,7 @@ class Named final : public fast::Method {
   }
 
   [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
-  void solve(const Queries& queries, std::span<fast::Answer> answers,
+  void solve(const AnyQueries& queries, std::span<fast::Answer> answers,
              const fast::MethodOptions& options) const override {
     method_->solve(queries, answers, options);
   }
@@ -102,7 +102,7 @@ verify::fuzz::FuzzOptions fuzz_options(const FaultySolver& solver) {
   options.most_groups = 1;
   if (!solver.is_on_curves) return options;
   options.shapes.clear();
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     options.shapes.push_back({kind, 2});
     options.shapes.push_back({kind, 3});
     options.shapes.push_back({kind, 2, true});

@@ -28,7 +28,7 @@ TEST(FaultHunt, IsOfFaultsWithNamesOfTheirOwnAndThePromisesOfTheirMethods) {
 TEST(FaultHunt, FindsEachFault) {
   for (const FaultySolver& solver : faulty_solvers()) {
     if (!solver.fault.is_to_be_found()) continue;
-    const Hunt found = hunt(solver, {.seconds = 0.0, .queries = 100'000});
+    const Hunt found = hunt(solver, {.seconds = 0.0, .queries = 300'000});
     ASSERT_TRUE(found.finding) << solver.fault.name;
     EXPECT_EQ(found.finding->method, solver.fault.name);
   }

@@ -26,6 +26,7 @@
 #include "touchstone/contacts.hpp"
 #include "touchstone/curved_query.hpp"
 #include "touchstone/intersections.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/tight_inclusion.hpp"
@@ -61,25 +62,25 @@ using Faults = std::vector<Fault<Part>>;
 // The types of the parts: functions and constants.
 using MakeBounds = std::vector<fast::VertexBounds>(const fast::Motion&, double end,
                                                    double distance);
-using ExactDistance = fast::Distance(Kind, const Query&, double, Norm);
-using FilteredDistance = std::optional<fast::Distance>(Kind, const Query&, double, Norm);
-using KeepsDistance = bool(Kind, const Query&, double t_max, const fast::KeptDistance&);
+using ExactDistance = fast::Distance(ContactKind, const Query&, double, Norm);
+using FilteredDistance = std::optional<fast::Distance>(ContactKind, const Query&, double, Norm);
+using KeepsDistance = bool(ContactKind, const Query&, double t_max, const fast::KeptDistance&);
 using FindActive = std::vector<fast::ActiveContact>(const fast::Step&, const Separation&);
-using EncloseContact = fast::ContactEnclosure(Kind, const Query&, const fast::TimeEnclosure&,
+using EncloseContact = fast::ContactEnclosure(ContactKind, const Query&, const fast::TimeEnclosure&,
                                               const fast::exact_stage::Parameters&,
                                               bool is_touching);
 using FindIntersections = std::vector<fast::Intersection>(fast::Motion, const fast::Mesh&,
                                                           const fast::IntersectionOptions&);
-using DecideElements = void(fast::KernelInput, double t_limit, const fast::CertifiedOptions&,
-                            const fast::CertifiedKernel&, const std::function<Query(std::size_t)>&,
-                            const std::function<void(std::size_t, const fast::CertifiedResult&)>&);
+using DecideCells = void(fast::CellInput, double t_limit, const fast::InversionOptions&,
+                         const fast::CertifiedKernel&, const std::function<Query(std::size_t)>&,
+                         const std::function<void(std::size_t, const fast::Inversion&)>&);
 using LimitStep = fast::LineSearchLimit(const fast::Step&, double, const fast::LineSearchOptions&);
 using Check = checker::Report(std::istream&, const checker::Options&);
 using DecideRescaled = void(const fast::KernelInput&, fast::KernelFunction&, std::span<const Query>,
                             fast::KernelOutput&);
-using DecideExactly = std::optional<fast::ExactImpact>(Kind, const Query&, const Separation&,
+using DecideExactly = std::optional<fast::ExactImpact>(ContactKind, const Query&, const Separation&,
                                                        double toi_tolerance, double t_max);
-using DecideCurvesExactly = std::optional<fast::ExactImpact>(Kind, const CurvedQuery&,
+using DecideCurvesExactly = std::optional<fast::ExactImpact>(ContactKind, const CurvedQuery&,
                                                              const Separation&,
                                                              double toi_tolerance, double t_max);
 using MakeFixedPoint = fast::FixedPointVertices(const fast::Motion&, double end, double distance);
@@ -98,7 +99,7 @@ struct PlantedFaults {
   Faults<LimitStep> line_search;
   Faults<FindIntersections> intersections;
   Faults<const fast::TriangleKernel> triangle_filter;
-  Faults<DecideElements> inversion;
+  Faults<DecideCells> inversion;
   Faults<const fast::CertifiedKernel> inversion_kernel;
   Faults<Check> checker, mesh_checker;
   Faults<const fast::BoxKernel> box_kernel;

@@ -43,15 +43,15 @@ using Expressions =
 TYPED_TEST_SUITE(EveryExpression, Expressions);
 
 template <class Expression>
-constexpr Kind kind_of =
-    Expression::weights == EdgeEdge::weights ? Kind::edge_edge : Kind::vertex_face;
+constexpr ContactKind kind_of =
+    Expression::weights == EdgeEdge::weights ? ContactKind::edge_edge : ContactKind::vertex_face;
 
 TYPED_TEST(EveryExpression, IsTheContactFunctionInRationals) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 200; ++i) {
     Inputs inputs = random_inputs(random, TypeParam::coordinates);
     inputs.weights = random_weights<TypeParam>(random, 20);
-    const bool edges = kind_of<TypeParam> == Kind::edge_edge;
+    const bool edges = kind_of<TypeParam> == ContactKind::edge_edge;
     const mpq_class t(inputs.weights[1]), u(inputs.weights[3]), v(inputs.weights[edges ? 5 : 4]);
     mpq_class truth =
         tests::contact_function(kind_of<TypeParam>, query_of(inputs.coordinates), t, u, v).at(0);

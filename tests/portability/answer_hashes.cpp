@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "fast/kernels.hpp"
+#include "touchstone/any_kind.hpp"
 #include "touchstone/broad_phase.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
@@ -116,7 +117,7 @@ std::vector<Query> queries_of(const std::filesystem::path& path) {
   return queries;
 }
 
-std::uint64_t hash_of_certified(Kind kind, std::span<const Query> queries,
+std::uint64_t hash_of_certified(ContactKind kind, std::span<const Query> queries,
                                 const Separation& separation) {
   return common_hash(fast::certified_kernels(), [&](const fast::CertifiedKernel* kernel) {
     std::vector<fast::CertifiedResult> results(queries.size());
@@ -128,7 +129,7 @@ std::uint64_t hash_of_certified(Kind kind, std::span<const Query> queries,
   });
 }
 
-std::uint64_t hash_of_distances(Kind kind, std::span<const Query> queries) {
+std::uint64_t hash_of_distances(ContactKind kind, std::span<const Query> queries) {
   Hash hash;
   std::vector<fast::Distance> results(queries.size());
   for (const Norm norm : {Norm::l2, Norm::linf}) {
@@ -142,7 +143,7 @@ std::uint64_t hash_of_distances(Kind kind, std::span<const Query> queries) {
 
 void print_queries(const std::filesystem::path& path) {
   const std::string of_kind = path.parent_path().filename().string();
-  const Kind kind = kind_from_string(of_kind);
+  const ContactKind kind = kind_from_string(of_kind).contact();
   const std::vector<Query> queries = queries_of(path);
   std::printf("%s/%s %zu", of_kind.c_str(), path.stem().string().c_str(), queries.size());
   for (const Separation& separation :

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from decimal import Decimal
 from fractions import Fraction
 
@@ -137,12 +138,13 @@ def test_out_is_overwritten_and_returned(solve, queries):
 @pytest.mark.parametrize(
     "solve, options, error, text",
     [
-        *((one, {"kind": "face"}, ValueError, "'tetrahedron' or 'plane_triangle', not 'face'") for one in BATCHES.values()),
+        *((one, {"kind": "face"}, ValueError, "'vertex_vertex'.*, not 'face'") for one in BATCHES.values()),
         *((one, {"norm": "l1"}, ValueError, "norm must be 'linf' or 'l2', not 'l1'") for one in BATCHES.values()),
         *((one, {"threads": -1}, ValueError, "threads must not be negative") for one in BATCHES.values()),
         (touchstone.solve, {"separation": -1.0}, ValueError, "separation must be a finite number"),
         (touchstone.solve, {"separation": np.nan}, ValueError, "separation must be a finite number"),
         (touchstone.solve, {"t_max": 2.0}, ValueError, "t_max"),
+        (touchstone.inversions, {"kind": "tetrahedron", "t_max": 2.0}, ValueError, "t_max"),
         (touchstone.solve, {"toi_tolerance": -1.0}, ValueError, "toi_tolerance"),
         (touchstone.tight_inclusion, {"tolerance": 0.0}, ValueError, "tolerance"),
         (touchstone.tight_inclusion, {"t_max": -1.0}, ValueError, "t_max"),
@@ -168,6 +170,74 @@ def test_numbers_of_other_types_are_taken_exactly(queries):
         assert bits(other) == bits(plain)
     free = np.ma.array(queries, mask=False)
     assert bits(touchstone.solve("edge_edge", free, separation=0.125)) == bits(plain)
+
+
+@pytest.mark.parametrize("kind, heights", [("tetrahedron", (3, 2)), ("plane_triangle", (2, 1))])
+def test_cells_whose_height_is_known(kind, heights):
+    """A point moves from one height to another above the others, which rest; NaN has no effect."""
+    times = {(1, -2): Fraction(1, 3), (1, 0): 1, (1, 0.5): None, (0, 1): 0, (-1, 2): 0, (3, -1): Fraction(3, 4)}
+    cells = np.zeros((6, 2, 4, 3))
+    cells[:, :, 1, 0] = cells[:, :, 2, 1] = 1
+    if kind == "plane_triangle":
+        cells[:, :, 3] = cells[..., 2] = np.nan
+    cells[(..., *heights)] = list(times)
+    lines = cells.reshape(-1, 8, 3)
+    found = touchstone.inversions(kind, lines)
+    assert found.start.tolist() == [1, 1, 1, 0, -1, 1] and repr(found) == "Inversions: 6 cells, 5 invert"
+    for i, time in enumerate(times.values()):
+        assert found.inverts[i] == (time is not None) and (time is None or found.toi_lower[i] <= time <= found.toi_upper[i])
+        assert bits(touchstone.inversions(kind, lines[i])) == bits(found[i])
+    assert touchstone.solve(kind, lines, method="certified").collides.tolist() == found.inverts.tolist()
+    for t_max in (0.75, np.nextafter(0.75, 0)):
+        assert touchstone.inversions(kind, lines[5], t_max=t_max).inverts == (t_max == 0.75)
+    parabolas = np.stack([cells[:, 0], cells.mean(axis=1), cells[:, 1]], axis=1)
+    for queries in (lines, parabolas, [[touchstone.Curve(cell[:, point]) for point in range(4)] for cell in cells]):
+        exact = touchstone.first_inversions(kind, queries)
+        assert exact.toi.tolist() == list(times.values()) and exact.inverts.tolist() == found.inverts.tolist()
+    for queries in (lines, parabolas):
+        report = touchstone.check(touchstone.prove(kind, queries))
+        assert report and (report.no_inversion, report.time_of_inversion) == (1, 5)
+    lines[1, 6, 1] = np.nan
+    for call in (touchstone.inversions, touchstone.first_inversions, touchstone.prove):
+        with pytest.raises(ValueError, match=r"query 1: coordinate \[6, 1\] is NaN"):
+            call(kind, lines)
+    with pytest.raises(ValueError, match="a cell has no separation"):
+        touchstone.prove(kind, lines[0], separation=1.0)
+    with pytest.raises(ValueError, match="straight"):
+        touchstone.inversions(kind, parabolas)
+
+
+@pytest.mark.parametrize("kind, points", [("vertex_edge", [0, 1, 2, 1]), ("vertex_vertex", [0, 1, 1, 1])])
+def test_a_point_and_an_edge_or_a_point_are_faces_without_an_area(kind, points, queries):
+    for shape, places in ((8, 3), [0, 1]), ((3, 4, 3), [0, 1, 1]):
+        given = queries[:300].reshape(-1, 2, 4, 3)[:, places] * 0.5
+        faces = given[:, :, points].reshape(-1, *shape)
+        given[:, :, max(points) + 1 :] = np.nan
+        given = given.reshape(-1, *shape)
+        last = given[7].reshape(-1, 4, 3)
+        for call in (touchstone.solve, touchstone.tight_inclusion, functools.partial(touchstone.solve, method="certified")):
+            assert bits(call(kind, given, separation=0.25)) == bits(call("vertex_face", faces, separation=0.25))
+        truth = touchstone.decide("vertex_face", faces, separation=0.25)
+        assert touchstone.decide(kind, given, separation=0.25).toi.tolist() == truth.toi.tolist() and 3 < truth.collides.sum() < 297
+        assert touchstone.decide(kind, [touchstone.Curve(last[:, i]) for i in range(4)], separation=0.25).toi == truth.toi[7]
+        assert touchstone.prove(kind, given[:20]) == touchstone.prove("vertex_face", faces[:20])
+        if shape == (8, 3):
+            assert bits(touchstone.distance(kind, given, t=0.25)) == bits(touchstone.distance("vertex_face", faces, t=0.25))
+        last[0, 1, 2] = np.inf
+        for call in (touchstone.solve, touchstone.tight_inclusion, touchstone.decide, touchstone.prove):
+            with pytest.raises(ValueError, match=r"query 7: coordinate \[(0, )?1, 2\] is infinite"):
+                call(kind, given)
+
+
+def test_contacts_and_cells_are_not_taken_for_each_other():
+    for calls, kind, text in (
+        ((*BATCHES.values(), touchstone.decide), "tetrahedron", "'vertex_vertex', not 'tetrahedron', a cell: call inversions, or first_inv"),
+        ((touchstone.inversions, touchstone.first_inversions), "edge_edge", "triangle', not 'edge_edge', a contact: call solve, or decide"),
+        ((lambda kind, queries: touchstone.generate(kind),), "vertex_edge", "'plane_triangle', not 'vertex_edge'"),
+    ):
+        for call in calls:
+            with pytest.raises(ValueError, match=text):
+                call(kind, [])
 
 
 def step(**options):

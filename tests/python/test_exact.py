@@ -103,7 +103,7 @@ def test_arrays_of_no_curves_are_refused(call):
 def test_curves_that_are_none_are_refused():
     rest = [touchstone.Curve([point]) for point in ([0, 0, 0], [1, 0, 0], [0, 1, 0])]
     for vertex in ([[[0, 0]]], [[]], [[[0, 0, np.nan]]], ([[0, 0, 1]] * 2, [1, 0])):
-        with pytest.raises(ValueError, match="curve|weight|degree"):
+        with pytest.raises(ValueError, match="curve|weight|degree|coordinates must be finite"):
             touchstone.decide("vertex_face", [[touchstone.Curve(*vertex), *rest]])
     for vertex in ([["0", "0", "1"]], np.array([[0, 0, 2**53 + 1]]), np.ma.array([[0, 0, 1]], mask=[[1, 0, 0]])):
         with pytest.raises(ValueError, match="^curves"):

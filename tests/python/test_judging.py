@@ -199,21 +199,21 @@ def test_the_example_convicts_the_naive_solver(monkeypatch, tmp_path, capsys):
 
 @pytest.mark.parametrize("kind", ["tetrahedron", "plane_triangle"])
 def test_solvers_of_inversions_are_judged(kind):
-    def of_ends(asked, query):  # an element that is upright at both ends may invert between
+    def of_ends(asked, query):  # a cell that is upright at both ends may invert between
         size = 3 if asked == "tetrahedron" else 2
         edges = (query.reshape(2, 4, 3)[:, 1:] - query.reshape(2, 4, 3)[:, :1])[:, :size, :size]
         return bool(np.linalg.det(edges).min() <= 0)
 
     def right(asked, query):
-        answer = touchstone.solve(asked, query)
-        return bool(answer.collides), float(answer.toi_lower)
+        answer = touchstone.inversions(asked, query)
+        return bool(answer.inverts), float(answer.toi_lower)
 
     convicted = touchstone.judge(of_ends, kind=kind, count=8)
     assert convicted.count("false_negatives") > 8 and {wrong.kind for wrong in convicted.wrong} == {kind}
     assert not touchstone.judge(right, touchstone.generate(kind, count=8), promise="exact").wrong
     found = touchstone.fuzz(of_ends, kind=kind, queries=2000, only=["false_negative"], findings=1)
     assert found.findings[0].kind == kind and found.findings[0].certificate
-    assert touchstone.decide(kind, found.findings[0].query).collides
+    assert touchstone.first_inversions(kind, found.findings[0].query).inverts
 
 
 def test_ctrl_c_ends_a_search_with_what_was_found(tmp_path):
@@ -327,7 +327,7 @@ def test_every_family_is_generated_with_its_truth(kind, options):
     assert len(known) > 3 and all(one.name.startswith("separation") if options else one.name in touchstone.families() for one in known)
     assert sum(len(one.toi) for one in known) > len(known)
     for one in known:
-        answers = touchstone.solve(kind, one.queries, **options)
+        answers = touchstone.solve(kind, one.queries, method="certified", **options)
         assert (one.collides == answers.collides).all() and all(one.collides[i] for i in one.toi)
         for i, time in one.toi.items():
             assert answers.toi_lower[i] <= time <= answers.toi_upper[i]

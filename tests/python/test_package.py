@@ -59,7 +59,8 @@ def test_the_recipe_of_conda_says_what_the_project_says():
 
 
 def test_former_names_are_refused_with_the_new_ones():
-    for name, new in (("certified", "solve"), ("certify", "judge"), ("decide_curved", "decide"), ("CurvedStep", "Step"), ("frobnicate", None)):
+    for name, new in (("certified", "solve"), ("certify", "judge"), ("decide_curved", "decide"), ("CurvedStep", "Step"),
+                      ("PairKind", "ContactKind"), ("VolumeKind", "CellKind"), ("ElementKind", "PrimitiveKind"), ("frobnicate", None)):
         text = rf"^touchstone\.{name} has become touchstone\.{new}\(" if new else "has no attribute 'frobnicate'"
         with pytest.raises(AttributeError, match=text):
             getattr(touchstone, name)

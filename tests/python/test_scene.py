@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import touchstone
-from touchstone import PairKind, Step
+from touchstone import ContactKind, Step
 
 
 def soup(seed: int, triangles: int = 40) -> dict[str, np.ndarray]:
@@ -25,17 +25,13 @@ def in_order(items: np.ndarray) -> list:
     return sorted(map(str, items.tolist()))
 
 
-def kind_of(pair_kind: int) -> str:
-    return "edge_edge" if pair_kind == PairKind.EDGE_EDGE else "vertex_face"
-
-
 @given(st.integers(0, 1000), st.sampled_from([0.0, 0.01, 1.0]), st.sampled_from(["linf", "l2"]))
 def test_collisions_are_those_of_the_candidates(seed, separation, norm):
     step = Step(**soup(seed, 8), separation=separation, norm=norm)
     expected = {}
     for pair in step.candidates():
         answer = touchstone.solve(
-            kind_of(pair["kind"]), step.query(pair["kind"], pair["pair"]), separation=separation, norm=norm
+            ContactKind(pair["kind"]).name.lower(), step.query(pair["kind"], pair["pair"]), separation=separation, norm=norm
         )
         if answer.collides:
             expected[pair["kind"], *pair["pair"]] = (answer.toi_lower, answer.toi_upper)
@@ -81,11 +77,11 @@ def test_points_edges_and_groups():
     before = np.array([[0.0, 0, 1], [-1, 0, 0], [1, 0, 0], [0, 0, 2]])
     after = np.array([[0.0, 0, -1], [-1, 0, 0], [1, 0, 0], [0, 0, -3]])
     step = Step(before, after, edges=[[1, 2]], points=[0, 3])
-    kinds = {PairKind(c["kind"]) for c in step.collisions()}
-    assert kinds == {PairKind.VERTEX_EDGE, PairKind.VERTEX_VERTEX}
+    kinds = {ContactKind(c["kind"]) for c in step.collisions()}
+    assert kinds == {ContactKind.VERTEX_EDGE, ContactKind.VERTEX_VERTEX}
     assert step.edges.tolist() == [[1, 2]]
     apart = Step(before, after, edges=[[1, 2]], points=[0, 3], groups=[0, 1, 1, 2], apart=[[0, 2], [1, 2]])
-    assert [(PairKind(c["kind"]), *c["pair"]) for c in apart.collisions()] == [(PairKind.VERTEX_EDGE, 0, 0)]
+    assert [(ContactKind(c["kind"]), *c["pair"]) for c in apart.collisions()] == [(ContactKind.VERTEX_EDGE, 0, 0)]
 
 
 def test_spheres_and_capsules_of_different_radii():
@@ -94,7 +90,7 @@ def test_spheres_and_capsules_of_different_radii():
     scene = dict(edges=[[1, 2]], points=[0, 3], groups=[0, 1, 1, 2])
     step = Step(before, after, **scene, radii=[2, 3, 0.5])
     # The axes are 5 = √(3² + 4²) apart at z = 4.
-    assert [(c["kind"], *c["pair"]) for c in step.collisions()] == [(PairKind.VERTEX_EDGE, 0, 0)]
+    assert [(c["kind"], *c["pair"]) for c in step.collisions()] == [(ContactKind.VERTEX_EDGE, 0, 0)]
     assert abs(step.earliest().toi_lower - 5 / 9) < 1e-9
     assert step.least_distance().lower == 2.5
     assert step.moved(after, after).least_distance().lower == -2.0
@@ -233,8 +229,8 @@ def test_errors_of_methods():
         (lambda: step.line_search_limit(1.0), ValueError, ""),
         (lambda: step.least_distance(t=2.0), ValueError, ""),
         (lambda: step.active_set(-1.0), ValueError, "separation"),
-        (lambda: step.query(PairKind.VERTEX_FACE, [0, 5]), IndexError, ""),
-        (lambda: step.query(PairKind.VERTEX_FACE, [0.5, 0.0]), ValueError, "pair: an array of integers is needed, not of float64"),
+        (lambda: step.query(ContactKind.VERTEX_FACE, [0, 5]), IndexError, ""),
+        (lambda: step.query(ContactKind.VERTEX_FACE, [0.5, 0.0]), ValueError, "pair: an array of integers is needed, not of float64"),
     ]:
         with pytest.raises(error, match=text):
             call()
@@ -248,7 +244,7 @@ def test_intersections_are_enclosed_and_named(scale):
     faces = [[0, 1, 2], [3, 4, 5]]
     found = touchstone.intersections(vertices, faces)
     assert found["kind"].tolist() == [touchstone.IntersectionKind.EDGE_THROUGH_FACE]
-    assert (found["elements"] == touchstone.ElementKind.FACE).all() and found["numbers"].tolist() == [[0, 1]]
+    assert (found["elements"] == touchstone.PrimitiveKind.FACE).all() and found["numbers"].tolist() == [[0, 1]]
     ends = np.array([[1, 1, 0], [2, 2, 0]]) * scale
     assert (found["place"][0, :, 0] <= ends).all() and (ends <= found["place"][0, :, 1]).all()
     assert len(touchstone.intersections(vertices, faces, groups=[0, 0, 0, 1, 1, 1], apart=[[0, 1]])) == 0
@@ -267,24 +263,24 @@ def test_intersections_of_vertices_at_one_place_need_a_weld():
         touchstone.intersections(soup, [[0, 1, 6]])
 
 
-def test_a_step_keeps_its_elements_from_inverting(tmp_path):
+def test_a_step_keeps_its_cells_from_inverting(tmp_path):
     """Tetrahedra that turn over, are flat, and grow; and a triangle that turns over in the plane."""
     before = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
     after = before * [-2, 1, 1]
-    elements = [[0, 1, 2, 3], [0, 1, 1, 3], [1, 0, 2, 3]]
-    step = touchstone.Step(before, after, tetrahedra=elements[:1], plane_triangles=[[0, 1, 2]])
+    cells = [[0, 1, 2, 3], [0, 1, 1, 3], [1, 0, 2, 3]]
+    step = touchstone.Step(before, after, tetrahedra=cells[:1], plane_triangles=[[0, 1, 2]])
     assert step.starts_free() and not step.is_free()
     found = step.inversions()
-    assert found["kind"].tolist() == [touchstone.VolumeKind.TETRAHEDRON, touchstone.VolumeKind.PLANE_TRIANGLE]
-    assert found["element"].tolist() == [0, 0] and found["start"].tolist() == [1, 1]
+    assert found["kind"].tolist() == [touchstone.CellKind.TETRAHEDRON, touchstone.CellKind.PLANE_TRIANGLE]
+    assert found["cell"].tolist() == [0, 0] and found["start"].tolist() == [1, 1]
     impact = step.earliest()
     assert len(impact.pairs) == 0 and impact.inversions.tolist() == found.tolist()
     assert 0.333 < step.free_step_size() < 1 / 3
     limit = step.line_search_limit(0.5, kept_volume=0.25)  # 1 - 3 t > 1/4
-    assert limit.status == "limited" and 0.2499 < limit.step_size < 0.25 and limit.inversions["element"].tolist() == [0, 0]
-    at_rest = touchstone.Step(before, before, tetrahedra=elements)
+    assert limit.status == "limited" and 0.2499 < limit.step_size < 0.25 and limit.inversions["cell"].tolist() == [0, 0]
+    at_rest = touchstone.Step(before, before, tetrahedra=cells)
     assert not at_rest.starts_free() and at_rest.free_step_size() is None
-    assert at_rest.inversions()["element"].tolist() == [1, 2]
+    assert at_rest.inversions()["cell"].tolist() == [1, 2]
     assert at_rest.line_search_limit(0.5).status == "inverted"
     assert step.moved(before, before).is_free()
     proof = step.prove(label="a solid and a triangle")

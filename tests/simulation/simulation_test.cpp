@@ -152,7 +152,7 @@ class FallingBox : public testing::Test {
   World world_{box_over_a_spike()};
 };
 
-using Pairs = std::vector<std::pair<fast::PairKind, fast::IndexPair>>;
+using Pairs = std::vector<std::pair<ContactKind, fast::IndexPair>>;
 
 Pairs pairs_of(const std::vector<fast::ActiveContact>& contacts) {
   Pairs result;
@@ -285,15 +285,15 @@ TEST_F(Recorded, QueriesComeBackWithTheTruth) {
   Recorder few(path("few"), "spike");
   (void)CollisionDetector({.recorder = &few, .record_limit = 4}).step_size(step);
   few.close();
-  EXPECT_GT(recorder.collisions(Kind::edge_edge), 0);
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  EXPECT_GT(recorder.collisions(ContactKind::edge_edge), 0);
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     std::uint64_t queries = 0, collisions = 0;
     const std::string file = path("recorded") + "/" + std::string(to_string(kind)) + "/spike.npy";
     const auto source = verify::data::open_dataset(file, {});
     while (const auto query = source->next()) {
       ++queries;
       ASSERT_TRUE(query->collides.has_value());
-      EXPECT_EQ(*query->collides, exact::decide(query->query.queries(), 0).collides());
+      EXPECT_EQ(*query->collides, exact::decide(kind, query->query.straight()).collides());
       if (*query->collides) ++collisions;
     }
     EXPECT_GT(queries, 4U);

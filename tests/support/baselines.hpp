@@ -33,8 +33,8 @@ namespace touchstone::tests {
 /// sliding-degenerate, motion in a plane (the vertex meets a corner of the face at 7/29, about).
 [[nodiscard]] inline PosedQuery printed_query(std::string_view family) {
   const auto known = verify::generate::make_query(verify::generate::family_from_name(family),
-                                                  Kind::vertex_face, 1, 0);
-  return {Kind::vertex_face, known.query};
+                                                  ContactKind::vertex_face, 1, 0);
+  return {ContactKind::vertex_face, known.query};
 }
 
 [[nodiscard]] inline fast::Answer answer_to(const fast::Method& method, const PosedQuery& posed,
@@ -95,10 +95,10 @@ enum class Movement { independent, translation };
 /// Random points in (−1,1), except that at t=1/2 the vertex is in the middle of the face, or the
 /// edges' middles meet: contact in the interior for any rounding. Points move independently, or
 /// each primitive translates.
-[[nodiscard]] inline PosedQuery centre_hit(Random& random, Kind kind, Movement motion) {
+[[nodiscard]] inline PosedQuery centre_hit(Random& random, ContactKind kind, Movement motion) {
   Query query{};
   for (double& x : query.coordinates) x = random.uniform(-1.0, 1.0);
-  const bool is_face = kind == Kind::vertex_face;
+  const bool is_face = kind == ContactKind::vertex_face;
   if (motion == Movement::translation) {
     for (const std::size_t point : {is_face ? 2U : 3U, 3U}) {
       point_of(query, 1, point) = point_of(query, 1, point == 3 && !is_face ? 2 : 1) +
@@ -119,8 +119,9 @@ enum class Movement { independent, translation };
 }
 
 /// The number of centre hits, of this many, that a method denies.
-[[nodiscard]] inline int missed_centre_hits(const fast::Method& method, Kind kind, Movement motion,
-                                            const fast::MethodOptions& options, int count) {
+[[nodiscard]] inline int missed_centre_hits(const fast::Method& method, ContactKind kind,
+                                            Movement motion, const fast::MethodOptions& options,
+                                            int count) {
   Random random(11);
   int missed = 0;
   for (int i = 0; i < count; ++i) {
@@ -170,7 +171,7 @@ struct Score {
   constexpr std::uint64_t seed = 5;
   Score score;
   for (const verify::generate::Family& family : verify::generate::families()) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
       if (!verify::generate::supports(family, kind)) continue;
       for (std::uint64_t index = 0; index < count; ++index) {
         const Query query = verify::generate::make_query(family, kind, seed, index).query;
@@ -187,7 +188,7 @@ struct Score {
   Random random(7);
   Score score;
   for (const Family family : all_families) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
       for (int i = 0; i < count; ++i) {
         const PosedQuery posed = random_query(random, kind, family);
         score.add(exact::decide(kind, posed.query), answer_to(method, posed, options));
@@ -201,7 +202,7 @@ struct Score {
 /// data is missing.
 [[nodiscard]] inline Score score_on_public_data(const fast::Method& method,
                                                 const fast::MethodOptions& options,
-                                                const std::string& folder, Kind kind,
+                                                const std::string& folder, ContactKind kind,
                                                 std::uint64_t stride) {
   Score score;
   for (const auto& file : public_datasets()) {
@@ -230,7 +231,7 @@ struct Score {
 }
 
 /// The score on `count` random queries of a family of tests/support/queries.hpp.
-[[nodiscard]] inline Score score_on(const fast::Method& method, Kind kind, Family family,
+[[nodiscard]] inline Score score_on(const fast::Method& method, ContactKind kind, Family family,
                                     std::uint64_t seed, int count) {
   Random random(seed);
   Score score;
@@ -249,7 +250,7 @@ struct Score {
 }
 
 /// A query of full significands that collides, its contact at a random time and place.
-[[nodiscard]] inline PosedQuery random_hit(Random& random, Kind kind) {
+[[nodiscard]] inline PosedQuery random_hit(Random& random, ContactKind kind) {
   for (;;) {
     const PosedQuery posed{kind, near_contact_query(random, kind)};
     if (truly_collides(posed)) return posed;

@@ -12,10 +12,12 @@
 
 #include "tests/support/checker_outcome.hpp"
 #include "tests/support/queries.hpp"
+#include "touchstone/any_kind.hpp"
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
+#include "verify/base/any_decision.hpp"
 
 namespace touchstone::tests {
 
@@ -37,7 +39,8 @@ namespace touchstone::tests {
 
 /// The claim of a certificate, read from its text.
 struct ReadClaim {
-  PosedQuery posed{Kind::vertex_face, {}};
+  AnyKind kind = ContactKind::vertex_face;
+  Query query{};
   Separation separation;
   exact::Claim claim = exact::Claim::no_collision;
   exact::RationalInterval toi;
@@ -97,15 +100,15 @@ struct ReadClaim {
     if (word == "query") {
       words >> word;
       result = {};
-      result.posed.kind = word == "edge_edge"     ? Kind::edge_edge
-                          : word == "tetrahedron" ? Kind::tetrahedron
-                                                  : Kind::vertex_face;
+      result.kind = ContactKind::vertex_face;
+      if (word == "edge_edge") result.kind = ContactKind::edge_edge;
+      if (word == "tetrahedron") result.kind = CellKind::tetrahedron;
       coordinate = 0;
     } else if (word == "point") {
-      while (words >> word && coordinate < result.posed.query.coordinates.size()) {
+      while (words >> word && coordinate < result.query.coordinates.size()) {
         const auto value = read_double(word);
         if (!value) return std::nullopt;
-        result.posed.query.coordinates.at(coordinate++) = *value;
+        result.query.coordinates.at(coordinate++) = *value;
       }
     } else if (word == "separation") {
       std::string norm;
@@ -127,8 +130,8 @@ struct ReadClaim {
 
 /// True if the claim is true by the oracle.
 [[nodiscard]] inline bool is_true(const ReadClaim& claim) {
-  const auto& [kind, query] = claim.posed;
-  const auto first = exact::decide(kind, query, claim.separation).toi;
+  const AnyQueries asked(claim.kind, {&claim.query, 1});
+  const auto first = verify::base::decide(asked, 0, claim.separation).toi;
   if (claim.claim == exact::Claim::no_collision) return !first;
   if (claim.claim == exact::Claim::collision || !first) return first.has_value();
   const exact::AlgebraicNumber& toi = *first;

@@ -38,7 +38,8 @@ namespace touchstone::tests {
 }
 
 /// The fault of a result about a query whose truth is known, or nothing.
-[[nodiscard]] inline std::optional<std::string> fault(Kind kind, const exact::Decision& truth,
+[[nodiscard]] inline std::optional<std::string> fault(ContactKind kind,
+                                                      const exact::Decision& truth,
                                                       const fast::CertifiedResult& result,
                                                       const fast::CertifiedOptions& options) {
   bool collides = truth.collides();
@@ -48,14 +49,15 @@ namespace touchstone::tests {
   }
   if (!collides) return std::nullopt;
   const auto [u, v] = std::pair(result.u, result.v);
-  const bool in_domain = u >= 0 && v >= 0 && u <= 1 && v <= 1 &&
-                         (kind == Kind::edge_edge || exact::Rational(u) + exact::Rational(v) <= 1);
+  const bool in_domain =
+      u >= 0 && v >= 0 && u <= 1 && v <= 1 &&
+      (kind == ContactKind::edge_edge || exact::Rational(u) + exact::Rational(v) <= 1);
   if (!in_domain) return "(u,v) is not in the domain";
   return enclosure_fault(*truth.toi, result.toi_lower, result.toi_upper, options.toi_tolerance);
 }
 
 /// The fault of a result, or nothing.
-[[nodiscard]] inline std::optional<std::string> fault(Kind kind, const Query& query,
+[[nodiscard]] inline std::optional<std::string> fault(ContactKind kind, const Query& query,
                                                       const fast::CertifiedResult& result,
                                                       const fast::CertifiedOptions& options = {}) {
   return fault(kind, exact::decide(kind, query, options.separation), result, options);

@@ -14,8 +14,9 @@ namespace touchstone::tests {
 /// value itself if they are exact (rationals), an unfiltered approximation if they are not.
 /// `Scalar` must be constructible from double and have +, − and *.
 template <class Scalar>
-[[nodiscard]] std::array<Scalar, 3> contact_function(Kind kind, const Query& query, const Scalar& t,
-                                                     const Scalar& u, const Scalar& v) {
+[[nodiscard]] std::array<Scalar, 3> contact_function(ContactKind kind, const Query& query,
+                                                     const Scalar& t, const Scalar& u,
+                                                     const Scalar& v) {
   const Scalar one(1.0);
   std::array<Scalar, 3> value;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -24,7 +25,7 @@ template <class Scalar>
                     t * Scalar(query.at(1, point, axis)));
     };
     const Scalar a = position(0), b = position(1), c = position(2), d = position(3);
-    value[axis] = kind == Kind::vertex_face
+    value[axis] = kind == ContactKind::vertex_face
                       ? Scalar(a - ((one - u - v) * b + u * c + v * d))
                       : Scalar(((one - u) * a + u * b) - ((one - v) * c + v * d));
   }

@@ -73,7 +73,7 @@ struct ExactPair {
 [[nodiscard]] inline std::pair<Rational, Rational> nearest_exactly(const ExactPair& pair,
                                                                    const Rational& t) {
   const Vector r = pair.vector(0, t), p = pair.vector(1, t), q = pair.vector(2, t);
-  const bool is_face = pair.posed.kind == Kind::vertex_face;
+  const bool is_face = pair.posed.kind == ContactKind::vertex_face;
   std::optional<Rational> least;
   std::pair<Rational, Rational> best;
   const auto consider = [&](const Rational& u, const Rational& v) {
@@ -146,7 +146,7 @@ struct Line {
   }
   std::vector<Vector> w{pair.difference(time, 0, 0), pair.difference(time, 1, 0),
                         pair.difference(time, 0, 1)};
-  if (posed.kind == Kind::edge_edge) w.push_back(pair.difference(time, 1, 1));
+  if (posed.kind == ContactKind::edge_edge) w.push_back(pair.difference(time, 1, 1));
   Rational least = least_component(w[0], w[1], w[2]);
   if (w.size() > 3) least = std::min(least, least_component(w[1], w[2], w[3]));
   return least;

@@ -16,10 +16,10 @@ namespace touchstone::tests {
 
 class MemorySource final : public verify::data::QuerySource {
  public:
-  MemorySource(const QueryShape& shape, std::vector<verify::data::RecordedQuery> queries)
+  MemorySource(const AnyShape& shape, std::vector<verify::data::RecordedQuery> queries)
       : shape_(shape), queries_(std::move(queries)) {}
-  MemorySource(Kind kind, std::vector<verify::data::RecordedQuery> queries)
-      : MemorySource(QueryShape{.kind = kind}, std::move(queries)) {}
+  MemorySource(AnyKind kind, std::vector<verify::data::RecordedQuery> queries)
+      : MemorySource(AnyShape{.kind = kind}, std::move(queries)) {}
 
   /// next() throws std::runtime_error(message) instead of giving query number `index`.
   void fail_at(std::size_t index, std::string message) {
@@ -28,7 +28,7 @@ class MemorySource final : public verify::data::QuerySource {
   }
 
   [[nodiscard]] const std::string& name() const override { return name_; }
-  [[nodiscard]] QueryShape shape() const override { return shape_; }
+  [[nodiscard]] AnyShape shape() const override { return shape_; }
   [[nodiscard]] std::optional<verify::data::RecordedQuery> next() override {
     if (position_ == failure_) throw std::runtime_error(message_);
     if (position_ == queries_.size()) return std::nullopt;
@@ -42,7 +42,7 @@ class MemorySource final : public verify::data::QuerySource {
 
  private:
   std::string name_ = "memory";
-  QueryShape shape_;
+  AnyShape shape_;
   std::vector<verify::data::RecordedQuery> queries_;
   std::size_t position_ = 0;
   std::optional<std::size_t> failure_;

@@ -10,8 +10,9 @@
 #include <utility>
 
 #include "fast/method.hpp"
+#include "touchstone/any_kind.hpp"
 #include "touchstone/oracle.hpp"
-#include "touchstone/query.hpp"
+#include "verify/base/any_decision.hpp"
 #include "verify/base/thread_clock.hpp"
 
 namespace touchstone::tests {
@@ -19,9 +20,9 @@ namespace touchstone::tests {
 /// Answers each query with a function.
 class FunctionMethod final : public fast::Method {
  public:
-  using Function = std::function<fast::Answer(Kind, const Query&)>;
+  using Function = std::function<fast::Answer(AnyKind, const Query&)>;
   /// Of one query, of any shape.
-  using AnyFunction = std::function<fast::Answer(const Queries&)>;
+  using AnyFunction = std::function<fast::Answer(const AnyQueries&)>;
 
   explicit FunctionMethod(Function function, fast::Promise promise = fast::Promise::conservative,
                           std::string name = "function")
@@ -34,14 +35,14 @@ class FunctionMethod final : public fast::Method {
       : function_(std::move(function)), info_(std::move(info)) {}
 
   [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
-  void solve(const Queries& queries, std::span<fast::Answer> answers,
+  void solve(const AnyQueries& queries, std::span<fast::Answer> answers,
              const fast::MethodOptions&) const override {
     for (std::size_t i = 0; i < answers.size(); ++i) answers[i] = function_(queries.part(i, 1));
   }
 
  private:
   static AnyFunction of_any(Function function) {
-    return [of_lines = std::move(function)](const Queries& one) {
+    return [of_lines = std::move(function)](const AnyQueries& one) {
       return of_lines(one.kind, one.straight().front());
     };
   }
@@ -52,8 +53,8 @@ class FunctionMethod final : public fast::Method {
 };
 
 /// The truth of one query as an answer, with the narrowest enclosure in doubles.
-[[nodiscard]] inline fast::Answer true_answer_to(const Queries& one) {
-  const exact::Decision verdict = exact::decide(one, 0);
+[[nodiscard]] inline fast::Answer true_answer_to(const AnyQueries& one) {
+  const exact::Decision verdict = verify::base::decide(one, 0);
   if (!verdict.collides()) return {.verdict = fast::Verdict::no};
   const exact::DoubleInterval toi = verdict.toi->enclosure();
   return {.verdict = fast::Verdict::yes,
@@ -61,8 +62,8 @@ class FunctionMethod final : public fast::Method {
           .toi_upper = toi.upper,
           .tolerance = 0.0};
 }
-[[nodiscard]] inline fast::Answer true_answer(Kind kind, const Query& query) {
-  return true_answer_to(Queries(kind, {&query, 1}));
+[[nodiscard]] inline fast::Answer true_answer(AnyKind kind, const Query& query) {
+  return true_answer_to(AnyQueries(kind, {&query, 1}));
 }
 
 /// Spends processor time.
@@ -71,12 +72,12 @@ inline void burn(double nanoseconds) {
   while (verify::base::thread_nanoseconds() < start + nanoseconds) continue;
 }
 
-[[nodiscard]] inline fast::Answer always_no(Kind, const Query&) {
+[[nodiscard]] inline fast::Answer always_no(AnyKind, const Query&) {
   return {.verdict = fast::Verdict::no};
 }
 
 /// In a millisecond.
-[[nodiscard]] inline fast::Answer slow_no(Kind kind, const Query& query) {
+[[nodiscard]] inline fast::Answer slow_no(AnyKind kind, const Query& query) {
   burn(1e6);
   return always_no(kind, query);
 }

@@ -14,7 +14,9 @@
 #include <cmath>
 #include <cstddef>
 #include <ios>
+#include <limits>
 #include <ostream>
+#include <vector>
 
 #include "tests/support/random.hpp"
 #include "touchstone/curved_query.hpp"
@@ -25,7 +27,7 @@ namespace touchstone::tests {
 
 /// A query with its kind.
 struct PosedQuery {
-  Kind kind;
+  ContactKind kind;
   Query query;
 };
 
@@ -38,10 +40,57 @@ inline std::ostream& operator<<(std::ostream& out, const PosedQuery& posed) {
 
 /// A query on curves with its kind and separation.
 struct PosedCurves {
-  Kind kind;
+  ContactKind kind;
   CurvedQuery query;
   Separation separation = {};
 };
+
+/// Vertices and edges, or pairs of vertices, with any numbers, none of which has an effect, in the
+/// place of further points; and each as a vertex and a face that has shrunk.
+struct ShrunkenFaces {
+  QueryShape shape;
+  std::vector<double> numbers = {}, numbers_of_faces = {};
+
+  [[nodiscard]] Queries queries() const { return {shape, numbers}; }
+  [[nodiscard]] Queries faces() const {
+    return {{ContactKind::vertex_face, shape.degree, shape.is_rational}, numbers_of_faces};
+  }
+};
+
+/// Of small integers, every other one on a line, so that many meet.
+[[nodiscard]] inline ShrunkenFaces shrunken_faces(Random& random, const QueryShape& shape,
+                                                  std::size_t count) {
+  constexpr std::array effectless{std::numeric_limits<double>::quiet_NaN(),
+                                  std::numeric_limits<double>::infinity(), -0x1p1023, 0.5};
+  const std::size_t size = shape.numbers_of_point();
+  const std::size_t points = shape.kind == ContactKind::vertex_edge ? 3 : 2;
+  ShrunkenFaces result{shape};
+  for (std::size_t i = 0; i < count * (shape.degree + 1); ++i) {
+    const bool is_on_line = i / (shape.degree + 1) % 2 == 0;
+    const auto drawn = [&](std::size_t point, std::size_t place) -> double {
+      if (point >= points) return effectless.at(static_cast<std::size_t>(random.between(0, 3)));
+      if (place == 3) return random.between(1, 2);
+      return is_on_line && place > 0 ? 0.0 : random.between(-2, 2);
+    };
+    const std::size_t first = result.numbers.size();
+    for (std::size_t k = 0; k < moving_points * size; ++k) {
+      const std::size_t point = k / size, place = k % size;
+      result.numbers.push_back(drawn(point, place));
+      result.numbers_of_faces.push_back(
+          result.numbers[first + (point < points ? point : 1) * size + place]);
+    }
+  }
+  return result;
+}
+
+/// All shapes that such queries have in tests.
+[[nodiscard]] inline std::vector<QueryShape> shrunken_shapes() {
+  std::vector<QueryShape> shapes;
+  for (const ContactKind kind : {ContactKind::vertex_edge, ContactKind::vertex_vertex}) {
+    shapes.insert(shapes.end(), {{kind, 1, false}, {kind, 2, false}, {kind, 2, true}});
+  }
+  return shapes;
+}
 
 /// Prints the kind, and each point's control points and weights as hexadecimal doubles.
 inline std::ostream& operator<<(std::ostream& out, const PosedCurves& posed) {
@@ -76,11 +125,11 @@ using FourPoints = std::array<double, 3 * moving_points>;
 }
 
 [[nodiscard]] inline PosedQuery vertex_face(const FourPoints& start, const FourPoints& end) {
-  return {Kind::vertex_face, moving(start, end)};
+  return {ContactKind::vertex_face, moving(start, end)};
 }
 
 [[nodiscard]] inline PosedQuery edge_edge(const FourPoints& start, const FourPoints& end) {
-  return {Kind::edge_edge, moving(start, end)};
+  return {ContactKind::edge_edge, moving(start, end)};
 }
 
 /// The points of a vertex-face query at one time: the vertex (x,y,z), then the face.
@@ -204,11 +253,11 @@ inline void degenerate(Random& random, Query& query) {
 }
 
 /// Moves the end of point 0 so that F(t,u,v) = 0 up to rounding, for random t ≥ 1/8 and (u,v).
-[[nodiscard]] inline Query near_contact_query(Random& random, Kind kind) {
+[[nodiscard]] inline Query near_contact_query(Random& random, ContactKind kind) {
   Query query = full_significand_query(random);
   const double t = random.uniform(0.125, 1.0);
   double u = random.uniform(0.0, 0.75);
-  double v = kind == Kind::vertex_face ? random.uniform(0.0, 1.0 - u) : random.uniform();
+  double v = kind == ContactKind::vertex_face ? random.uniform(0.0, 1.0 - u) : random.uniform();
   switch (random.between(0, 5)) {
     case 0:
       u = 0.0;
@@ -217,7 +266,7 @@ inline void degenerate(Random& random, Query& query) {
       v = 0.0;
       break;
     case 2:
-      v = kind == Kind::vertex_face ? 1.0 - u : 1.0;
+      v = kind == ContactKind::vertex_face ? 1.0 - u : 1.0;
       break;
     default:
       break;
@@ -226,7 +275,7 @@ inline void degenerate(Random& random, Query& query) {
     return (1.0 - t) * point_of(query, 0, point) + t * point_of(query, 1, point);
   };
   const Eigen::Vector3d a = at_t(1), b = at_t(2), c = at_t(3);
-  const Eigen::Vector3d aim = kind == Kind::vertex_face
+  const Eigen::Vector3d aim = kind == ContactKind::vertex_face
                                   ? Eigen::Vector3d((1.0 - u - v) * a + u * b + v * c)
                                   : Eigen::Vector3d(((1.0 - v) * b + v * c - u * a) / (1.0 - u));
   point_of(query, 1, 0) = (aim - (1.0 - t) * point_of(query, 0, 0)) / t;
@@ -234,7 +283,7 @@ inline void degenerate(Random& random, Query& query) {
 }
 
 /// A random query of the family.
-[[nodiscard]] inline PosedQuery random_query(Random& random, Kind kind, Family family) {
+[[nodiscard]] inline PosedQuery random_query(Random& random, ContactKind kind, Family family) {
   switch (family) {
     case Family::tiny_integers:
       return {kind, integer_query(random, 1)};

@@ -25,11 +25,11 @@ namespace touchstone::tests {
     const double start = 1.0 + higher * static_cast<double>(i % 97);
     queries.push_back(over_triangle(1, 1, start, i % every == 0 ? -1.0 : 0.5).query);
   }
-  return {"falling", Kind::vertex_face, std::move(queries)};
+  return {"falling", ContactKind::vertex_face, std::move(queries)};
 }
 
 /// The first queries of the first family on curves, which is of degree 2.
-[[nodiscard]] inline verify::data::QueryGroup curved_group(Kind kind, std::uint64_t count) {
+[[nodiscard]] inline verify::data::QueryGroup curved_group(ContactKind kind, std::uint64_t count) {
   const auto source =
       verify::generate::open_family(verify::generate::curved_families().front(), kind, 7, count);
   verify::data::QueryGroup group("curves", source->shape());

@@ -67,7 +67,7 @@ using Vector = std::array<Polynomial, 3>;
 
 /// A query of independent integer coordinates in [−1000, 1000]: general position, large
 /// deformation.
-[[nodiscard]] inline PosedQuery deforming_query(Random& random, Kind kind) {
+[[nodiscard]] inline PosedQuery deforming_query(Random& random, ContactKind kind) {
   PosedQuery posed{kind, {}};
   for (double& x : posed.query.coordinates) x = random.between(-1000, 1000);
   return posed;

@@ -18,7 +18,8 @@
 
 #include "tests/support/random.hpp"
 #include "touchstone/broad_phase.hpp"
-#include "touchstone/element.hpp"
+#include "touchstone/cell.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/step.hpp"
 
@@ -27,9 +28,8 @@ namespace touchstone::tests {
 using fast::Edge;
 using fast::Face;
 using fast::IndexPair;
-using fast::PairKind;
 using Places = Eigen::MatrixX3d;
-using NumberedPair = std::pair<PairKind, IndexPair>;
+using NumberedPair = std::pair<ContactKind, IndexPair>;
 using Pairs = std::vector<NumberedPair>;
 
 // ---- Scenes -------------------------------------------------------------------------------------
@@ -184,10 +184,10 @@ inline void add_thickness(Scene& scene, double length, Random& random) {
   }
 }
 
-/// An element as a query about a tetrahedron.
-[[nodiscard]] inline Query element_query(const Scene& scene, Kind kind, std::size_t i) {
+/// A cell as a tetrahedron.
+[[nodiscard]] inline Query cell_query(const Scene& scene, CellKind kind, std::size_t i) {
   fast::Tetrahedron points{};
-  if (kind == Kind::tetrahedron) {
+  if (kind == CellKind::tetrahedron) {
     points = scene.tetrahedra.at(i);
   } else {
     std::ranges::copy(scene.plane_triangles.at(i), points.begin());
@@ -200,14 +200,14 @@ inline void add_thickness(Scene& scene, double length, Random& random) {
   return to_tetrahedron(kind, query);
 }
 
-/// Calls visit(kind, number, query) for all elements with volumes, in order.
+/// Calls visit(kind, number, query) for all cells, in order.
 template <class Visit>
 void for_each_volume(const Scene& scene, const Visit& visit) {
   for (std::size_t i = 0; i < scene.tetrahedra.size(); ++i) {
-    visit(Kind::tetrahedron, i, element_query(scene, Kind::tetrahedron, i));
+    visit(CellKind::tetrahedron, i, cell_query(scene, CellKind::tetrahedron, i));
   }
   for (std::size_t i = 0; i < scene.plane_triangles.size(); ++i) {
-    visit(Kind::plane_triangle, i, element_query(scene, Kind::plane_triangle, i));
+    visit(CellKind::plane_triangle, i, cell_query(scene, CellKind::plane_triangle, i));
   }
 }
 
@@ -216,19 +216,19 @@ void for_each_volume(const Scene& scene, const Visit& visit) {
 inline void add_volumes(Scene& scene, int most, int rare, Random& random) {
   const auto vertices = static_cast<int>(scene.start.rows());
   const auto any = [&] { return random.between(0, vertices - 1); };
-  const auto add = [&](auto& elements, Kind kind, const auto& element) {
-    elements.push_back(element);
+  const auto add = [&](auto& cells, CellKind kind, const auto& cell) {
+    cells.push_back(cell);
     const auto start = [&] {
-      return fast::solve(Kind::tetrahedron, element_query(scene, kind, elements.size() - 1),
-                         {.t_max = 0.0})
+      return fast::inversion(CellKind::tetrahedron, cell_query(scene, kind, cells.size() - 1),
+                             {.t_max = 0.0})
           .start;
     };
-    if (start() < 0) std::swap(elements.back()[0], elements.back()[1]);
-    if (start() <= 0 && random.between(1, rare) != 1) elements.pop_back();
+    if (start() < 0) std::swap(cells.back()[0], cells.back()[1]);
+    if (start() <= 0 && random.between(1, rare) != 1) cells.pop_back();
   };
   for (int i = random.between(0, most); i > 0; --i) {
-    add(scene.tetrahedra, Kind::tetrahedron, fast::Tetrahedron{any(), any(), any(), any()});
-    add(scene.plane_triangles, Kind::plane_triangle, Face{any(), any(), any()});
+    add(scene.tetrahedra, CellKind::tetrahedron, fast::Tetrahedron{any(), any(), any(), any()});
+    add(scene.plane_triangles, CellKind::plane_triangle, Face{any(), any(), any()});
     if (random.between(1, rare) == 1 && !scene.tetrahedra.empty()) {
       std::swap(scene.tetrahedra.back()[2], scene.tetrahedra.back()[3]);
     }
@@ -262,18 +262,18 @@ class AllPairs {
   [[nodiscard]] const Pairs& pairs() const { return pairs_; }
 
   [[nodiscard]] std::vector<std::int32_t> first(const NumberedPair& pair) const {
-    if (pair.first == PairKind::edge_edge) return of(scene_.edges[size(pair.second[0])]);
+    if (pair.first == ContactKind::edge_edge) return of(scene_.edges[size(pair.second[0])]);
     return {pair.second[0]};
   }
   [[nodiscard]] std::vector<std::int32_t> second(const NumberedPair& pair) const {
     const std::int32_t number = pair.second[1];
     switch (pair.first) {
-      case PairKind::vertex_face:
+      case ContactKind::vertex_face:
         return of(scene_.faces[size(number)]);
-      case PairKind::edge_edge:
-      case PairKind::vertex_edge:
+      case ContactKind::edge_edge:
+      case ContactKind::vertex_edge:
         return of(scene_.edges[size(number)]);
-      case PairKind::vertex_vertex:
+      case ContactKind::vertex_vertex:
         break;
     }
     return {number};
@@ -281,8 +281,8 @@ class AllPairs {
 
   [[nodiscard]] std::vector<std::int32_t> vertices(const NumberedPair& pair) const {
     std::vector<std::int32_t> vertices = first(pair), others = second(pair);
-    if (pair.first == PairKind::vertex_edge) others.push_back(others[0]);
-    if (pair.first == PairKind::vertex_vertex) others.resize(3, others[0]);
+    if (pair.first == ContactKind::vertex_edge) others.push_back(others[0]);
+    if (pair.first == ContactKind::vertex_vertex) others.resize(3, others[0]);
     vertices.insert(vertices.end(), others.begin(), others.end());
     return vertices;
   }
@@ -368,7 +368,7 @@ class AllPairs {
     return some_meet;
   }
 
-  void add(PairKind kind, std::int32_t a, std::int32_t b) {
+  void add(ContactKind kind, std::int32_t a, std::int32_t b) {
     if (may_meet({kind, {a, b}})) pairs_.push_back({kind, {a, b}});
   }
 
@@ -376,17 +376,17 @@ class AllPairs {
     const auto faces = static_cast<std::int32_t>(scene_.faces.size());
     const auto edges = static_cast<std::int32_t>(scene_.edges.size());
     for (const std::int32_t vertex : vertices_) {
-      for (std::int32_t face = 0; face < faces; ++face) add(PairKind::vertex_face, vertex, face);
+      for (std::int32_t face = 0; face < faces; ++face) add(ContactKind::vertex_face, vertex, face);
     }
     for (std::int32_t a = 0; a < edges; ++a) {
-      for (std::int32_t b = a + 1; b < edges; ++b) add(PairKind::edge_edge, a, b);
+      for (std::int32_t b = a + 1; b < edges; ++b) add(ContactKind::edge_edge, a, b);
     }
     for (const std::int32_t point : points_) {
-      for (const std::int32_t edge : bare_edges_) add(PairKind::vertex_edge, point, edge);
+      for (const std::int32_t edge : bare_edges_) add(ContactKind::vertex_edge, point, edge);
     }
     for (std::size_t i = 0; i < points_.size(); ++i) {
       for (std::size_t k = i + 1; k < points_.size(); ++k) {
-        add(PairKind::vertex_vertex, points_[i], points_[k]);
+        add(ContactKind::vertex_vertex, points_[i], points_[k]);
       }
     }
   }

@@ -43,12 +43,12 @@ struct SimulationStep {
   LabelledPairs vertex_face;
   LabelledPairs edge_edge;
 
-  [[nodiscard]] const LabelledPairs& labelled(Kind kind) const {
-    return kind == Kind::vertex_face ? vertex_face : edge_edge;
+  [[nodiscard]] const LabelledPairs& labelled(ContactKind kind) const {
+    return kind == ContactKind::vertex_face ? vertex_face : edge_edge;
   }
 
   /// Pairs with the arrays of their indices; refers to both.
-  [[nodiscard]] fast::Candidates candidates(Kind kind,
+  [[nodiscard]] fast::Candidates candidates(ContactKind kind,
                                             const std::vector<fast::IndexPair>& pairs) const {
     return {.kind = kind, .pairs = pairs, .edges = edges, .faces = faces};
   }

@@ -60,9 +60,9 @@ TEST(Corpus, IsAnsweredRightlyByTheOracleAndByEverySolver) {
 TEST(Corpus, HasBothKindsAndASeparation) {
   bool has_faces = false, has_edges = false, is_separated = false;
   for (const std::filesystem::path& path : corpus()) {
-    const Kind kind = data::open_dataset(path)->kind();
-    has_faces = has_faces || kind == Kind::vertex_face;
-    has_edges = has_edges || kind == Kind::edge_edge;
+    const AnyKind kind = data::open_dataset(path)->kind();
+    has_faces = has_faces || kind == ContactKind::vertex_face;
+    has_edges = has_edges || kind == ContactKind::edge_edge;
     is_separated = is_separated || data::recorded_separation(path).distance > 0.0;
   }
   EXPECT_TRUE(has_faces && has_edges && is_separated);

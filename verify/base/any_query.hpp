@@ -10,18 +10,18 @@
 #include <span>
 #include <vector>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 
 namespace touchstone::verify::base {
 
 class AnyQuery {
  public:
   /// All points at rest in the origin.
-  AnyQuery() : AnyQuery(Kind::vertex_face, Query{}) {}
-  AnyQuery(Kind kind, const Query& query) : shape_{.kind = kind}, straight_(query) {}
-  AnyQuery(const Queries& queries, std::size_t i) : AnyQuery(queries, queries.row(i)) {}
+  AnyQuery() : AnyQuery(ContactKind::vertex_face, Query{}) {}
+  AnyQuery(AnyKind kind, const Query& query) : shape_{.kind = kind}, straight_(query) {}
+  AnyQuery(const AnyQueries& queries, std::size_t i) : AnyQuery(queries, queries.row(i)) {}
   /// \pre as many numbers as the shape has
-  AnyQuery(const QueryShape& shape, std::span<const double> numbers) : shape_(shape) {
+  AnyQuery(const AnyShape& shape, std::span<const double> numbers) : shape_(shape) {
     if (shape.is_straight()) {
       std::copy_n(numbers.begin(), straight_.coordinates.size(), straight_.coordinates.begin());
     } else {
@@ -29,8 +29,8 @@ class AnyQuery {
     }
   }
 
-  [[nodiscard]] const QueryShape& shape() const { return shape_; }
-  [[nodiscard]] Kind kind() const { return shape_.kind; }
+  [[nodiscard]] const AnyShape& shape() const { return shape_; }
+  [[nodiscard]] AnyKind kind() const { return shape_.kind; }
   [[nodiscard]] std::span<const double> numbers() const {
     if (shape_.is_straight()) return straight_.coordinates;
     return curves_;
@@ -40,14 +40,14 @@ class AnyQuery {
     return curves_;
   }
   /// An array of this query alone.
-  [[nodiscard]] Queries queries() const { return {shape_, numbers()}; }
+  [[nodiscard]] AnyQueries queries() const { return {shape_, numbers()}; }
   /// The query on straight lines. \pre shape().is_straight()
   [[nodiscard]] const Query& straight() const { return straight_; }
 
   friend bool operator==(const AnyQuery&, const AnyQuery&) = default;
 
  private:
-  QueryShape shape_;
+  AnyShape shape_;
   Query straight_{};            ///< if it is
   std::vector<double> curves_;  ///< else
 };

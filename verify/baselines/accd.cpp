@@ -52,15 +52,16 @@ struct Rules {
 
 using Points = std::array<Eigen::Vector3d, moving_points>;
 
-double squared_distance(Kind kind, const Points& x) {
-  return kind == Kind::vertex_face ? feature_squared_distance(x[0], Triangle{x[1], x[2], x[3]})
-                                   : feature_squared_distance(Segment{x[0], x[1]}, {x[2], x[3]});
+double squared_distance(ContactKind kind, const Points& x) {
+  return kind == ContactKind::vertex_face
+             ? feature_squared_distance(x[0], Triangle{x[1], x[2], x[3]})
+             : feature_squared_distance(Segment{x[0], x[1]}, {x[2], x[3]});
 }
 
 /// The quantity used as squared distance while stepping.
-double stepping_squared_distance(Kind kind, const Points& x, double separation) {
+double stepping_squared_distance(ContactKind kind, const Points& x, double separation) {
   const double distance = squared_distance(kind, x);
-  if (kind == Kind::vertex_face || distance - separation * separation > 0.0) return distance;
+  if (kind == ContactKind::vertex_face || distance - separation * separation > 0.0) return distance;
   return std::min({(x[0] - x[2]).squaredNorm(), (x[0] - x[3]).squaredNorm(),
                    (x[1] - x[2]).squaredNorm(), (x[1] - x[3]).squaredNorm()});
 }
@@ -78,14 +79,14 @@ Points centred_displacements(const Query& query) {
 }
 
 /// ℓ: an upper bound of the approach of the primitives in [0,1].
-double greatest_approach(Kind kind, const Points& displacement) {
+double greatest_approach(ContactKind kind, const Points& displacement) {
   const auto length = [&](std::size_t i) { return displacement[i].norm(); };
-  return kind == Kind::vertex_face
+  return kind == ContactKind::vertex_face
              ? length(0) + std::max({length(1), length(2), length(3)})
              : std::max(length(0), length(1)) + std::max(length(2), length(3));
 }
 
-fast::Answer advance(Kind kind, const Query& query, const fast::MethodOptions& options,
+fast::Answer advance(ContactKind kind, const Query& query, const fast::MethodOptions& options,
                      const Rules& rules) {
   const double separation = options.separation.distance;
   Points x;
@@ -120,13 +121,14 @@ fast::Answer advance(Kind kind, const Query& query, const fast::MethodOptions& o
           .toi_lower = yes ? toi : fast::Answer::none};
 }
 
-fast::Answer accd(Kind kind, const Query& query, const fast::MethodOptions& options) {
+fast::Answer accd(ContactKind kind, const Query& query, const fast::MethodOptions& options) {
   return advance(
       kind, query, options,
       {.step_share = 0.9, .most_steps = options.max_checks, .at_limit = fast::Verdict::yes});
 }
 
-fast::Answer accd_limited(Kind kind, const Query& query, const fast::MethodOptions& options) {
+fast::Answer accd_limited(ContactKind kind, const Query& query,
+                          const fast::MethodOptions& options) {
   return advance(kind, query, options,
                  {.step_share = 0.8, .most_steps = 32, .at_limit = fast::Verdict::no});
 }

@@ -24,7 +24,7 @@ namespace touchstone::baselines {
 [[nodiscard]] std::unique_ptr<fast::Method> sampling_method();
 [[nodiscard]] std::unique_ptr<fast::Method> advancement_method();
 
-// For elements, without a promise (inversion.cpp). Both use t_max; the second the tolerance, of the
+// For cells, without a promise (inversion.cpp). Both use t_max; the second the tolerance, of the
 // volume, and max_checks, after which the answer is yes.
 [[nodiscard]] std::unique_ptr<fast::Method> inversion_cubic_method();
 [[nodiscard]] std::unique_ptr<fast::Method> inversion_additive_method();

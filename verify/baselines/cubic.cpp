@@ -33,10 +33,10 @@ namespace {
 /// Zeros count up to this distance from [0,1], and with an imaginary part of at most this.
 constexpr double zero_tolerance = 1e-6;
 
-Polynomial<3> coplanarity(Kind kind, const Query& query) {
+Polynomial<3> coplanarity(ContactKind kind, const Query& query) {
   const auto [a, b, c, d] = motions_of(query);
-  return kind == Kind::vertex_face ? dot(a - b, cross(c - b, d - b))
-                                   : dot(c - a, cross(b - a, d - c));
+  return kind == ContactKind::vertex_face ? dot(a - b, cross(c - b, d - b))
+                                          : dot(c - a, cross(b - a, d - c));
 }
 
 /// The filtered zeros, and both ends, in ascending order.
@@ -55,7 +55,7 @@ std::vector<double> candidate_times(const Polynomial<3>& f) {
   return times;
 }
 
-fast::Answer cubic(Kind kind, const Query& query, const fast::MethodOptions& options) {
+fast::Answer cubic(ContactKind kind, const Query& query, const fast::MethodOptions& options) {
   for (const double t : candidate_times(coplanarity(kind, query))) {
     if (t > options.t_max) break;
     if (squared_distance_at(kind, query, t) <= options.tolerance * options.tolerance) {

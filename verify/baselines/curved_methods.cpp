@@ -71,7 +71,7 @@ std::array<std::vector<Point>, 2> divided(std::vector<Point> row, double t) {
   return parts;
 }
 
-std::size_t second_primitive(Kind kind) { return kind == Kind::vertex_face ? 1 : 2; }
+std::size_t second_primitive(ContactKind kind) { return kind == ContactKind::vertex_face ? 1 : 2; }
 
 // ---- Subdivision --------------------------------------------------------------------------------
 
@@ -131,7 +131,7 @@ std::optional<double> subdivide(const Queries& queries, std::size_t i) {
 
 // ---- Distances at times -------------------------------------------------------------------------
 
-double distance_at(Kind kind, const Curves& curves, double t) {
+double distance_at(ContactKind kind, const Curves& curves, double t) {
   Query rest{};
   for (std::size_t point = 0; point < moving_points; ++point) {
     const Point place = divided(curves[point], t)[0].back();
@@ -153,7 +153,7 @@ std::optional<double> sample(const Queries& queries, std::size_t i) {
 
 /// The greatest relative speed: n times the greatest step between control points, of each
 /// primitive.
-double greatest_speed(Kind kind, const Curves& curves) {
+double greatest_speed(ContactKind kind, const Curves& curves) {
   std::array<double, 2> speeds{};
   for (std::size_t point = 0; point < moving_points; ++point) {
     double& greatest = speeds[point < second_primitive(kind) ? 0 : 1];
@@ -189,8 +189,8 @@ std::unique_ptr<fast::Method> curved_method(std::string_view name,
       {.name = name,
        .terms = {.straight = false, .most_degree = greatest_degree},
        .variant_of = variant_of},
-      [](const Queries& queries, std::size_t i, const fast::MethodOptions& options) {
-        const std::optional<double> t = find(queries, i);
+      [](const AnyQueries& all, std::size_t i, const fast::MethodOptions& options) {
+        const std::optional<double> t = find(all.as(all.kind.contact()), i);
         if (!t || *t > options.t_max) return fast::Answer{.verdict = fast::Verdict::no};
         return fast::Answer{.verdict = fast::Verdict::yes, .toi_lower = *t};
       });

@@ -1,4 +1,4 @@
-// INVERSION_CUBIC and INVERSION_ADDITIVE: when an element loses its volume, in floating point, as
+// INVERSION_CUBIC and INVERSION_ADDITIVE: when a cell loses its volume, in floating point, as
 // line searches of injective maps and simulators of solids ask it. docs/methods.md, section 4.
 //
 // Six times the volume V is a cubic in t; for a triangle in the plane twice the area, a quadratic.
@@ -11,12 +11,12 @@
 //   advances by that, until V is at most δ (fast::MethodOptions::tolerance).
 //
 // **Promise.** None: nothing bounds the rounding. Times are estimates of the one, and bounds from
-// below of the other. Both take elements of a positive volume at t=0.
+// below of the other. Both take cells of a positive volume at t=0.
 //
-// **Known defects.** Both look at numbers of absolute size: small elements have zero volume or no
+// **Known defects.** Both look at numbers of absolute size: small cells have zero volume or no
 // zeros. Where V touches 0 the discriminant is a rounding error, so every other such inversion is
 // missed; in the other method V is then above δ if coordinates are large, and it goes on behind
-// the time. Far from the origin, or for flat elements, V itself is a rounding error.
+// the time. Far from the origin, or for flat cells, V itself is a rounding error.
 
 #include "verify/baselines/baselines.hpp"
 
@@ -29,7 +29,7 @@
 #include <numbers>
 #include <vector>
 
-#include "touchstone/element.hpp"
+#include "touchstone/cell.hpp"
 #include "touchstone/mesh.hpp"
 #include "verify/baselines/method_support.hpp"
 #include "verify/baselines/moving_polynomials.hpp"
@@ -89,10 +89,11 @@ double greatest_change(const Query& query) {
 }
 
 constexpr fast::Terms terms_of(fast::Times times) {
-  return {.kinds = {false, false, true, true}, .starts_apart = 0.0, .times = times};
+  return {.contacts = {}, .cells = fast::all_cells, .starts_apart = 0.0, .times = times};
 }
 
-fast::Answer inversion_cubic(Kind kind, const Query& query, const fast::MethodOptions& options) {
+fast::Answer inversion_cubic(CellKind kind, const Query& query,
+                             const fast::MethodOptions& options) {
   const auto [a, b, c, d] = motions_of(to_tetrahedron(kind, query));
   double first = 2.0;
   for (const double t : zeros_of(dot(b - a, cross(c - a, d - a)))) {
@@ -102,12 +103,13 @@ fast::Answer inversion_cubic(Kind kind, const Query& query, const fast::MethodOp
   return {.verdict = fast::Verdict::yes, .toi_lower = first};
 }
 
-fast::Answer inversion_additive(Kind kind, const Query& query, const fast::MethodOptions& options) {
-  const Query element = to_tetrahedron(kind, query);
-  const double change = greatest_change(element);
+fast::Answer inversion_additive(CellKind kind, const Query& query,
+                                const fast::MethodOptions& options) {
+  const Query cell = to_tetrahedron(kind, query);
+  const double change = greatest_change(cell);
   double t = 0.0;
   for (std::int64_t steps = 1; t <= options.t_max; ++steps) {
-    const double volume = volume_at(element, t), next = t + volume / change;
+    const double volume = volume_at(cell, t), next = t + volume / change;
     if (volume <= options.tolerance || next == t || steps == options.max_checks) {
       return {.verdict = fast::Verdict::yes, .checks = to_checks(steps), .toi_lower = t};
     }

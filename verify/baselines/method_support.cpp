@@ -13,7 +13,7 @@
 namespace touchstone::baselines {
 namespace {
 
-fast::Answer answer_of(AnswerFunction answer, const Queries& queries, std::size_t i,
+fast::Answer answer_of(AnswerFunction answer, const AnyQueries& queries, std::size_t i,
                        const fast::MethodOptions& options) {
   if (!is_finite(queries.row(i))) return {.verdict = fast::Verdict::error};
   try {
@@ -34,7 +34,7 @@ class BaselineMethod final : public fast::Method {
 
   [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
 
-  void solve(const Queries& queries, std::span<fast::Answer> answers,
+  void solve(const AnyQueries& queries, std::span<fast::Answer> answers,
              const fast::MethodOptions& options) const override {
     if (!are_valid(options)) {
       std::ranges::fill(answers, fast::Answer{.verdict = fast::Verdict::error});
@@ -68,9 +68,9 @@ Eigen::Vector3d position_at(const Query& query, std::size_t point, double t) {
   return point_of(query, 0, point) + t * (point_of(query, 1, point) - point_of(query, 0, point));
 }
 
-double squared_distance_at(Kind kind, const Query& query, double t) {
+double squared_distance_at(ContactKind kind, const Query& query, double t) {
   const auto at = [&](std::size_t point) { return position_at(query, point, t); };
-  return kind == Kind::vertex_face
+  return kind == ContactKind::vertex_face
              ? closest_point_squared_distance(at(0), {at(1), at(2), at(3)})
              : closest_points_squared_distance({at(0), at(1)}, {at(2), at(3)});
 }

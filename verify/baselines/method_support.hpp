@@ -12,19 +12,25 @@
 #include <memory>
 
 #include "fast/method.hpp"
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 
 namespace touchstone::baselines {
 
 /// A method as a function of query i, of a shape that its terms name. It is called with finite
 /// coordinates and options that are_valid(), rounding to nearest.
-using AnswerFunction = fast::Answer (*)(const Queries& queries, std::size_t i,
+using AnswerFunction = fast::Answer (*)(const AnyQueries& queries, std::size_t i,
                                         const fast::MethodOptions& options);
 
-/// That of a method on straight lines.
-template <fast::Answer (*answer)(Kind, const Query&, const fast::MethodOptions&)>
-fast::Answer on_lines(const Queries& queries, std::size_t i, const fast::MethodOptions& options) {
-  return answer(queries.kind, queries.straight()[i], options);
+/// That of a method for contacts, or for cells, on straight lines.
+template <fast::Answer (*answer)(ContactKind, const Query&, const fast::MethodOptions&)>
+fast::Answer on_lines(const AnyQueries& queries, std::size_t i,
+                      const fast::MethodOptions& options) {
+  return answer(queries.kind.contact(), queries.straight()[i], options);
+}
+template <fast::Answer (*answer)(CellKind, const Query&, const fast::MethodOptions&)>
+fast::Answer on_lines(const AnyQueries& queries, std::size_t i,
+                      const fast::MethodOptions& options) {
+  return answer(queries.kind.cell(), queries.straight()[i], options);
 }
 
 /// True if the tolerance is positive and finite, the separation finite and not negative, and t_max
@@ -40,7 +46,7 @@ fast::Answer on_lines(const Queries& queries, std::size_t i, const fast::MethodO
 
 /// The squared distance of a query's primitives at time t, from their closest points
 /// (closest_features.hpp).
-[[nodiscard]] double squared_distance_at(Kind kind, const Query& query, double t);
+[[nodiscard]] double squared_distance_at(ContactKind kind, const Query& query, double t);
 
 /// The baseline of that description (is_baseline is set) as a fast::Method. Its answer is
 /// fast::Verdict::error for coordinates that are not finite and options that are not valid, and

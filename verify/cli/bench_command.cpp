@@ -205,7 +205,7 @@ class BenchRun {
       } else {
         for (const fs::path& path : arguments_.sources.paths) {
           sources_.paths = {path};
-          measure_sources(path.string(), {Kind::vertex_face, Kind::edge_edge});
+          measure_sources(path.string(), {ContactKind::vertex_face, ContactKind::edge_edge});
         }
       }
     }
@@ -277,14 +277,14 @@ class BenchRun {
 
   // ---- Queries ----------------------------------------------------------------------------------
 
-  void measure_candidates(const mesh::MovingMesh& mesh, Kind kind) {
+  void measure_candidates(const mesh::MovingMesh& mesh, ContactKind kind) {
     const auto queries = mesh::candidates_of(mesh, kind, separation(), &io::interrupted());
     measure(data::QueryGroup(mesh.name, kind, queries), separation());
   }
 
   void measure_built_in() {
     const mesh::MovingMesh patches = generate::moving_patches({.seed = sources_.seed});
-    for (const Kind kind : kinds_of(sources_.kind)) measure_candidates(patches, kind);
+    for (const AnyKind kind : kinds_of(sources_.kind)) measure_candidates(patches, kind.contact());
     measure_sources("built-in set", kinds_of(sources_.kind));
   }
 
@@ -292,11 +292,12 @@ class BenchRun {
   void measure_levels() {
     const auto [first, last] = levels_of(arguments_.levels);
     for (const generate::LevelFamily* const family : families_of(arguments_.families)) {
-      for (const Kind kind : kinds_of(sources_.kind)) {
+      for (const AnyKind kind : kinds_of(sources_.kind)) {
         std::vector<jobs::BenchRow> rows;
         for (int level = first; level <= last && !stopped(); ++level) {
-          add_rows(generate::level_group(*family, kind, level, sources_.seed, sources_.count),
-                   separation(), level, rows);
+          add_rows(
+              generate::level_group(*family, kind.contact(), level, sources_.seed, sources_.count),
+              separation(), level, rows);
         }
         std::ranges::stable_sort(rows, {}, &jobs::BenchRow::method);
         print(rows, std::string(family->name));
@@ -307,7 +308,7 @@ class BenchRun {
   void measure_step() {
     const mesh::MovingMesh mesh = mesh::read_step(arguments_.step.at(0), arguments_.step.at(1));
     report_note(arguments_.step.front(), mesh.note);
-    for (const Kind kind : kinds_of(sources_.kind)) measure_candidates(mesh, kind);
+    for (const AnyKind kind : kinds_of(sources_.kind)) measure_candidates(mesh, kind.contact());
     if (stopped()) return;
     io::ProgressBar bar("bench " + mesh.name);
     const jobs::StepResult step =
@@ -325,8 +326,8 @@ class BenchRun {
 
   /// Measures the queries below a path, or of the built-in set, one kind at a time, because both
   /// may not fit into memory.
-  void measure_sources(const std::string& name, const std::vector<Kind>& kinds) {
-    for (const Kind kind : kinds) {
+  void measure_sources(const std::string& name, const std::vector<AnyKind>& kinds) {
+    for (const AnyKind kind : kinds) {
       std::vector<data::QueryGroup> groups;
       std::optional<Separation> about;
       for_each_source(

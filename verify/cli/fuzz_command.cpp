@@ -73,9 +73,9 @@ struct Arguments {
   }
 
   /// The shapes of a degree.
-  [[nodiscard]] std::vector<QueryShape> shapes(const std::string& of_degree) const {
-    std::vector<QueryShape> result;
-    for (const Kind one : kinds_of(kind)) {
+  [[nodiscard]] std::vector<AnyShape> shapes(const std::string& of_degree) const {
+    std::vector<AnyShape> result;
+    for (const AnyKind one : kinds_of(kind)) {
       if (of_degree != rational) {
         result.push_back({.kind = one, .degree = std::stoul(of_degree)});
         continue;
@@ -104,7 +104,7 @@ double part_of_run(const Arguments& arguments, double seconds, std::uint64_t que
 // ---- The corpus ---------------------------------------------------------------------------------
 
 /// The kind of a file: from its path, or else from --kind.
-Kind kind_of(const fs::path& file, const Arguments& arguments) {
+AnyKind kind_of(const fs::path& file, const Arguments& arguments) {
   try {
     return data::kind_from_path(file);
   } catch (const io::DatasetError&) {
@@ -118,7 +118,7 @@ std::vector<base::AnyQuery> read_corpus(const Arguments& arguments, Files& files
   if (arguments.corpus.empty()) return corpus;
   for (const fs::path& file : data::find_datasets(arguments.corpus)) {
     files.add_dataset(file);
-    const Kind kind = kind_of(file, arguments);
+    const AnyKind kind = kind_of(file, arguments);
     const auto source = data::open_dataset(file, {.kind = kind});
     for (auto query = source->next(); query && !io::interrupted(); query = source->next()) {
       corpus.push_back(std::move(query->query));
@@ -131,7 +131,7 @@ std::vector<base::AnyQuery> read_corpus(const Arguments& arguments, Files& files
 
 /// FILE itself for straight lines if its path determines the kind, else with the kind in its name;
 /// for curves with shape and kind.
-fs::path dataset_path(const fs::path& file, const QueryShape& shape) {
+fs::path dataset_path(const fs::path& file, const AnyShape& shape) {
   const std::string_view kind = to_string(shape.kind);
   try {
     if (data::kind_from_path(file) != shape.kind) {
@@ -165,7 +165,7 @@ class FoundQueries {
     }
     require_same_separation(folder_, separation_);
     for (const std::string& degree : arguments.degrees()) {
-      for (const QueryShape& shape : arguments.shapes(degree)) (void)file_of(shape);
+      for (const AnyShape& shape : arguments.shapes(degree)) (void)file_of(shape);
     }
   }
 
@@ -202,7 +202,7 @@ class FoundQueries {
 
   /// The file of the shape, which is opened when it is first asked for: simplified queries may be
   /// of any lower degree.
-  [[nodiscard]] File& file_of(const QueryShape& shape) {
+  [[nodiscard]] File& file_of(const AnyShape& shape) {
     const fs::path path = dataset_path(name_, shape);
     const auto found = std::ranges::find(files_, path, &File::path);
     if (found != files_.end()) return *found;
@@ -319,13 +319,13 @@ class FuzzRun {
 
   /// The shapes that the command line names and the solver answers.
   /// \throws std::invalid_argument if it answers none of a degree.
-  [[nodiscard]] std::vector<QueryShape> chosen_shapes() const {
-    std::vector<QueryShape> result;
+  [[nodiscard]] std::vector<AnyShape> chosen_shapes() const {
+    std::vector<AnyShape> result;
     for (const std::string& degree : arguments_.degrees()) {
       const std::size_t before = result.size();
       std::ranges::copy_if(
           arguments_.shapes(degree), std::back_inserter(result),
-          [&](const QueryShape& shape) { return method_->info().terms.answers(shape); });
+          [&](const AnyShape& shape) { return method_->info().terms.answers(shape); });
       if (result.size() == before) refuse(degree);
     }
     return result;
@@ -334,7 +334,7 @@ class FuzzRun {
   /// Reports the queries of the corpus that the search cannot use.
   void leave_out_others() {
     const std::size_t count = std::erase_if(options_.corpus, [&](const base::AnyQuery& query) {
-      return std::ranges::find(options_.shapes, query.kind(), &QueryShape::kind) ==
+      return std::ranges::find(options_.shapes, query.kind(), &AnyShape::kind) ==
              options_.shapes.end();
     });
     if (count != 0) {
@@ -344,10 +344,10 @@ class FuzzRun {
 
   [[noreturn]] void refuse(const std::string& degree) const {
     const fast::Terms& terms = method_->info().terms;
-    const auto answers = [&terms](Kind one) { return terms.answers(one); };
+    const auto answers = [&terms](AnyKind one) { return terms.answers(one); };
     if (std::ranges::none_of(kinds_of(arguments_.kind), answers)) {
       std::vector<std::string_view> answered;
-      for (const Kind one : all_kinds) {
+      for (const AnyKind one : all_kinds) {
         if (answers(one)) answered.push_back(to_string(one));
       }
       throw std::invalid_argument(
@@ -451,7 +451,7 @@ void add(Command& app, Status& status) {
       "Exit status: 0 nothing found (130: interrupted), 1 findings, 2 bad input or usage, nothing "
       "judged.");
   set_action(*command, [arguments, command, &status] {
-    for (const Kind kind : kinds_of(arguments->kind)) require_kind(*command, kind);
+    for (const AnyKind kind : kinds_of(arguments->kind)) require_kind(*command, kind);
     settle_solver_options(*command, true, arguments->solver);
     settle_query_limit(*command, arguments->run_seconds(), arguments->solver);
     status = FuzzRun(*arguments).run();

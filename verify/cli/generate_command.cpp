@@ -151,7 +151,7 @@ std::vector<Written> write_families(const Arguments& arguments, Files& files) {
   }
   io::ProgressBar progress("generate");
   for (std::size_t i = 0; i < chosen_families.size(); ++i) {
-    for (const Kind kind : kinds_of(arguments.kind)) {
+    for (const AnyKind kind : kinds_of(arguments.kind)) {
       if (io::interrupted() || !generate::supports(chosen_families[i], kind)) continue;
       const auto source = generate::open_family(chosen_families[i], kind, arguments.seed,
                                                 arguments.count, separation);
@@ -243,13 +243,13 @@ void add(Command& app, Status& status) {
       "touchstone generate --out hard --count 100 --family hourglass\n"
       "touchstone generate --out near --min-separation 1e-8\n"
       "touchstone generate --out curves --degree 2 --degree rational\n"
-      "touchstone generate --out elements --kind tetrahedron\n"
+      "touchstone generate --out cells --kind tetrahedron\n"
       "touchstone generate --out patches --patches 500",
       "With --min-separation there are additional families, with contact at exactly that distance; "
       "the others are written without truth. FOLDER/separation.json records the separation.\n" +
           std::string(writing_statuses));
   set_action(*command, [arguments, command, &status] {
-    for (const Kind kind : kinds_of(arguments->kind)) require_kind(*command, kind);
+    for (const AnyKind kind : kinds_of(arguments->kind)) require_kind(*command, kind);
     status = generate(*arguments);
   });
 }

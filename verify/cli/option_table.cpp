@@ -46,8 +46,8 @@ std::vector<OptionRow> make_table() {
       {"--kind", "KIND", kinds, "Only these queries; otherwise vertex-face and edge-edge", "generate"},
       {"--kind", "KIND", contact, "vertex-face or edge-edge, if the input does not tell", "view"},
       {"--kind", "KIND", contact, "vertex-face or edge-edge, if the path does not tell", "bench"},
-      {"--kind", "KIND", kinds, "vertex-face, edge-edge, or an element, if the path does not tell", "prove"},
-      {"--kind", "KIND", kinds, "vertex-face, edge-edge, or an element, if the path does not tell; also: only these of the built-in set"},
+      {"--kind", "KIND", kinds, "vertex-face, edge-edge, or a cell, if the path does not tell", "prove"},
+      {"--kind", "KIND", kinds, "vertex-face, edge-edge, or a cell, if the path does not tell; also: only these of the built-in set"},
       {"--round", "", {}, "Round coordinates of datasets that are not doubles", "view"},
       {"--round", "", {}, "Round coordinates that are not doubles, and count them"},
       {"--keep-going", "", {}, "Skip and count invalid queries and files (exit status 2)"},
@@ -117,7 +117,7 @@ std::vector<OptionRow> make_table() {
       {"--kernel", "NAME", OneOf{{"scalar", "avx2", "avx512", "neon", "best"}}, "Kernel of certified and steps: scalar, avx2, avx512, neon or best"},
       {"--repetitions", "N", Whole{1, 1'000'000}, "Repetitions; times are medians"},
       {"--singles", "N", Whole{0, UINT32_MAX}, "Also time so many queries alone, one call each"},
-      {"--judge", "N", Whole{0, INT64_MAX}, "Queries to judge per group, plus every reported collision"},
+      {"--judge", "N", Whole{0, INT64_MAX}, "AnyQueries to judge per group, plus every reported collision"},
       {"--all", "", {}, "Find every collision, with its times (the default)"},
       {"--earliest", "", {}, "Find only the earliest impact and its pairs"},
       {"--free", "", {}, "Find only whether there is a collision"},
@@ -374,7 +374,7 @@ std::vector<std::pair<std::string, std::string>> given_options(const Command& co
   return given;
 }
 
-void require_kind(const Command& command, Kind kind, const std::filesystem::path& file) {
+void require_kind(const Command& command, AnyKind kind, const std::filesystem::path& file) {
   const std::string& name = command.get_name();
   const auto refuse = [&](std::string_view what, std::string_view way_out) {
     throw std::invalid_argument(
@@ -382,7 +382,7 @@ void require_kind(const Command& command, Kind kind, const std::filesystem::path
                     file.empty() ? "" : file.string() + ": ", what, to_string(kind), way_out,
                     file.empty() ? "choose another --kind" : "name other files"));
   };
-  if (!is_element(kind)) return;
+  if (!kind.is_cell()) return;
   for (const auto& [option, value] : given_options(command)) {
     // A distance of 0 is contact itself.
     if (!is_about_contact(name, option) || data::distance_from_text(value) == 0.0) continue;

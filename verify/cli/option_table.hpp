@@ -4,7 +4,7 @@
 /// The table of options: each is described once, for all commands that have it. A command takes its
 /// options from here by name and binds them to variables (add_option); --help, the page of all
 /// options (docs/site) and the test that tries every option at its limits use the same rows. Which
-/// options exclude or need each other, and which take no elements, is data there, too.
+/// options exclude or need each other, and which take no cells, is data there, too.
 ///
 /// option_table.cpp is the only source that includes the parser, CLI11, whose headers take longer
 /// to compile than most commands.
@@ -19,7 +19,7 @@
 #include <variant>
 #include <vector>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/cli/commands.hpp"
 
 namespace touchstone::verify::cli {
@@ -122,7 +122,7 @@ void set_action(Command& command, const std::function<void()>& action);
 /// \throws std::invalid_argument, naming file and option, if the command, or an option that it was
 /// given, takes no queries of that kind.
 /// \param file of these queries; empty: --kind asks for them
-void require_kind(const Command& command, Kind kind, const std::filesystem::path& file = {});
+void require_kind(const Command& command, AnyKind kind, const std::filesystem::path& file = {});
 
 /// Parses the command line and runs its command. Prints help, version and errors of usage.
 [[nodiscard]] Status run_command_line(int argc, char** argv);

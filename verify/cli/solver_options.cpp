@@ -58,10 +58,7 @@ void add_solver_options(Command& command, SolverArguments& arguments) {
 solvers::TermsChanges SolverArguments::terms() const {
   solvers::TermsChanges terms{.starts_apart = io::number_from_text<double>(starts_apart),
                               .time_error = time_error};
-  for (const std::string& name : kinds) {
-    if (!terms.kinds) terms.kinds.emplace().fill(false);
-    terms.kinds->at(static_cast<std::size_t>(kind_from_string(name))) = true;
-  }
+  for (const std::string& name : kinds) terms.kinds.push_back(kind_from_string(name));
   if (float_coordinates) terms.float_coordinates = true;
   if (!times.empty()) {
     terms.times = times == "bounds" ? fast::Times::bounds
@@ -187,7 +184,7 @@ Solvers::Solvers(Files& files, const SolverArguments& arguments, MethodHost host
     results_.push_back({path, solvers::load_answers(path)});
     fast::Terms terms;
     for (const auto& group : results_.back().answers.groups()) {
-      terms.kinds.at(static_cast<std::size_t>(group.kind)) = true;
+      terms.add(group.kind);
     }
     add(solvers::recorded_solver(path.string(), results_.back().answers,
                                  solvers::changed(terms, arguments.terms())),

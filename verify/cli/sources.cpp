@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "touchstone/any_kind.hpp"
 #include "touchstone/broad_phase.hpp"
-#include "touchstone/query.hpp"
 #include "verify/cli/option_table.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/ground_truth_files.hpp"
@@ -31,12 +31,12 @@ struct Unopened {
 /// The families of the built-in set, with the kinds that they have, of the shard.
 std::vector<Unopened> built_in_sources(const SourceArguments& arguments) {
   const Separation separation = arguments.separation.given();
-  const std::vector<Kind> kinds = kinds_of(arguments.kind);
-  for (const Kind kind : kinds) require_kind(*arguments.command, kind);
+  const std::vector<AnyKind> kinds = kinds_of(arguments.kind);
+  for (const AnyKind kind : kinds) require_kind(*arguments.command, kind);
   std::vector<Unopened> sources;
   std::size_t number = 0;
   for (const generate::Family& family : generate::families(separation, arguments.degrees)) {
-    for (const Kind kind : kinds) {
+    for (const AnyKind kind : kinds) {
       if (!generate::supports(family, kind) || !arguments.shard.contains(number++)) continue;
       sources.push_back({family.name, [=, &arguments] {
                            return generate::open_family(family, kind, arguments.seed,
@@ -97,16 +97,16 @@ std::vector<Unopened> dataset_files(const SourceArguments& arguments, Files& rec
 void refuse_kind(const std::string& kind) {
   throw std::invalid_argument(
       "no chosen family has " + (kind.empty() ? "vertex-face or edge-edge" : kind) +
-      " queries: name another --kind, or other families (elements are on straight lines alone)");
+      " queries: name another --kind, or other families (cells are on straight lines alone)");
 }
 
-std::vector<Kind> kinds_of(const std::string& option) {
+std::vector<AnyKind> kinds_of(const std::string& option) {
   if (option.empty()) return {contact_kinds.begin(), contact_kinds.end()};
   return {kind_from_string(option)};
 }
 
 void require_kinds(const Command& command, std::span<const fs::path> files,
-                   std::optional<Kind> kind) {
+                   std::optional<AnyKind> kind) {
   for (const fs::path& file : files) {
     try {
       require_kind(command, kind ? *kind : data::kind_from_path(file), file);
@@ -137,8 +137,8 @@ void add_source_options(Command& command, SourceArguments& arguments) {
 Separation separation_for(const SourceArguments& arguments, const data::QuerySource& source) {
   try {
     const Separation settled = arguments.separation.settle(source.recorded_separation());
-    if (is_zero(settled) || !is_element(source.kind())) return settled;
-    throw std::invalid_argument("its separation.json has a distance, which elements have not");
+    if (is_zero(settled) || !source.kind().is_cell()) return settled;
+    throw std::invalid_argument("its separation.json has a distance, which cells have not");
   } catch (const std::invalid_argument& error) {
     throw io::DatasetError(source.name(), {}, error.what());
   }
@@ -205,7 +205,7 @@ Status status_of_queries(const SourceArguments& arguments, std::uint64_t queries
 }
 
 data::QueryGroup& group_of(std::vector<data::QueryGroup>& groups, const std::string& path,
-                           const QueryShape& shape) {
+                           const AnyShape& shape) {
   const auto known = std::ranges::find(groups, shape, &data::QueryGroup::shape);
   if (known != groups.end()) return *known;
   std::string name = path;

@@ -63,12 +63,12 @@ struct SourceArguments {
 [[noreturn]] void refuse_kind(const std::string& kind);
 
 /// The kinds that --kind asks for: without it, those about contact.
-[[nodiscard]] std::vector<Kind> kinds_of(const std::string& option);
+[[nodiscard]] std::vector<AnyKind> kinds_of(const std::string& option);
 
 /// \throws std::invalid_argument as require_kind, if it is thrown for a file of this kind, which by
 /// default its path tells.
 void require_kinds(const Command& command, std::span<const std::filesystem::path> files,
-                   std::optional<Kind> kind);
+                   std::optional<AnyKind> kind);
 
 /// Adds PATH, --kind, --round, --keep-going, --threads and --seed; the arguments must live until
 /// the command line is parsed.
@@ -93,7 +93,7 @@ struct SourceHandlers {
 };
 
 /// The separation of a source: from the options, or recorded with the source.
-/// \throws DatasetError naming both if they contradict each other, or if elements have one.
+/// \throws DatasetError naming both if they contradict each other, or if cells have one.
 [[nodiscard]] Separation separation_for(const SourceArguments& arguments,
                                         const data::QuerySource& source);
 
@@ -113,7 +113,7 @@ void for_each_source(const SourceArguments& arguments, Files& files,
 /// The group of that shape among those of a path, added if there is none yet. On curves its name
 /// ends in their degree.
 [[nodiscard]] data::QueryGroup& group_of(std::vector<data::QueryGroup>& groups,
-                                         const std::string& path, const QueryShape& shape);
+                                         const std::string& path, const AnyShape& shape);
 
 /// Works until an interrupt, after which the command goes on with the results so far.
 void until_interrupted(const std::function<void()>& work);

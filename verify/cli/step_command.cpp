@@ -139,7 +139,7 @@ class StepRun {
     std::string label = fmt::format("{} to {}", frames_->name(i - 1), frames_->name(i));
     if (const auto& earliest = report_.steps.back().earliest) {
       for (const fast::StepInversion& one : earliest->inversions) {
-        label += fmt::format("; {} {} inverts at t = {:.6g}", to_string(one.kind), one.element,
+        label += fmt::format("; {} {} inverts at t = {:.6g}", to_string(one.kind), one.cell,
                              one.toi_upper);
       }
     }

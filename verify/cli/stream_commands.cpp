@@ -390,7 +390,7 @@ class StreamRun {
 
   /// True if there is a wrong answer that the page draws.
   static bool can_be_drawn(const jobs::CertifyResult& result) {
-    return result.shape && !is_element(result.shape->kind) && jobs::has_wrong_answers(result);
+    return result.shape && !result.shape->kind.is_cell() && jobs::has_wrong_answers(result);
   }
 
   /// The sources whose queries were not all judged in the time of the run; by name in the table.

@@ -23,7 +23,7 @@ bool is_name(std::string_view text) {
 }
 
 /// The line before the queries of a shape; none on straight lines.
-std::string shape_line(const QueryShape& shape) {
+std::string shape_line(const AnyShape& shape) {
   if (shape.is_straight()) return "";
   return fmt::format("{},{}\n", shape.is_rational ? "rational" : "degree", shape.degree);
 }

@@ -144,13 +144,13 @@ bool contains_word(std::string_view text, std::string_view word) {
 }
 
 /// The kind that the deepest part with a kind names.
-std::optional<Kind> kind_from_parts(const fs::path& path) {
-  std::optional<Kind> kind;
+std::optional<AnyKind> kind_from_parts(const fs::path& path) {
+  std::optional<AnyKind> kind;
   for (const fs::path& part : path) {
     const std::string name = part.string();
-    std::vector<Kind> named;
+    std::vector<AnyKind> named;
     std::ranges::copy_if(all_kinds, std::back_inserter(named),
-                         [&](Kind one) { return contains_word(name, to_string(one)); });
+                         [&](AnyKind one) { return contains_word(name, to_string(one)); });
     if (named.size() > 1) {
       throw io::DatasetError(path, {}, io::quote(name) + " names several kinds; pass --kind");
     }
@@ -188,11 +188,11 @@ std::vector<fs::path> find_datasets(std::span<const fs::path> paths, const LeftO
   return found;
 }
 
-Kind kind_from_path(const fs::path& path) {
+AnyKind kind_from_path(const fs::path& path) {
   if (const auto kind = kind_from_parts(path)) return *kind;
   const std::string stem = dataset_stem(path);
-  if (ends_in_word(stem, "vf")) return Kind::vertex_face;
-  if (ends_in_word(stem, "ee")) return Kind::edge_edge;
+  if (ends_in_word(stem, "vf")) return ContactKind::vertex_face;
+  if (ends_in_word(stem, "ee")) return ContactKind::edge_edge;
   if (const auto kind = kind_from_parts(fs::absolute(path).lexically_normal())) return *kind;
   throw io::DatasetError(path, {},
                          "the path does not say whether its queries are vertex-face or edge-edge; "

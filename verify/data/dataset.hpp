@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/data/query_source.hpp"
 #include "verify/io/dataset_error.hpp"
 
@@ -21,7 +21,7 @@ namespace touchstone::verify::data {
 /// Options for reading a dataset.
 struct DatasetOptions {
   /// The kind of all its queries; by default the path determines it.
-  std::optional<Kind> kind = std::nullopt;
+  std::optional<AnyKind> kind = std::nullopt;
   /// Round coordinates and weights that are not doubles to the nearest double;
   /// QuerySource::rounded() counts them. A coordinate whose nearest double is infinite stays an
   /// error.
@@ -52,7 +52,7 @@ using LeftOut = std::function<void(const io::DatasetError&)>;
 /// extension, after only digits ("326vf"), a separator and optional digits ("x_ee", "x-326vf") or
 /// nothing, else the working directory's parts.
 /// \throws DatasetError if the path determines no kind, or both in one part.
-[[nodiscard]] Kind kind_from_path(const std::filesystem::path& path);
+[[nodiscard]] AnyKind kind_from_path(const std::filesystem::path& path);
 
 /// Opens a .csv, .csv.zst, .npy or .npz file.
 /// \throws DatasetError, with and without keep_going, if the file cannot be read, its kind or its

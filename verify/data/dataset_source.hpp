@@ -23,7 +23,7 @@ namespace touchstone::verify::data {
 class DatasetSource : public QuerySource {
  public:
   [[nodiscard]] const std::string& name() const final { return name_; }
-  [[nodiscard]] QueryShape shape() const final { return shape_; }
+  [[nodiscard]] AnyShape shape() const final { return shape_; }
   [[nodiscard]] std::optional<RecordedQuery> next() final;
   [[nodiscard]] std::uint64_t skipped() const final { return skipped_; }
   [[nodiscard]] Separation recorded_separation() const final { return separation_; }
@@ -69,7 +69,7 @@ class DatasetSource : public QuerySource {
   std::filesystem::path path_;
   std::string name_;
   DatasetOptions options_;
-  QueryShape shape_;
+  AnyShape shape_;
   GroundTruthFiles ground_truth_files_;
   Separation separation_;
   std::uint64_t count_ = 0;

@@ -227,7 +227,7 @@ void NpyArray::fail_for_type(std::span<const std::string_view> names) const {
   fail(fmt::format("dtype {}, expected {}", io::quote(header_.descr), fmt::join(names, " or ")));
 }
 
-NpyWriter::NpyWriter(std::filesystem::path path, const QueryShape& shape)
+NpyWriter::NpyWriter(std::filesystem::path path, const AnyShape& shape)
     : file_(std::move(path)), extents_{query_points, 3} {
   if (!shape.is_straight()) {
     extents_ = {shape.degree + 1, moving_points, shape.numbers_of_point()};

@@ -19,7 +19,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/io/output_file.hpp"
 
 struct zip;
@@ -129,7 +129,7 @@ class NpyWriter {
  public:
   /// \param shape of all its queries; the kind does not matter
   /// \throws DatasetError if no file can be made there.
-  explicit NpyWriter(std::filesystem::path path, const QueryShape& shape = {});
+  explicit NpyWriter(std::filesystem::path path, const AnyShape& shape = {});
 
   /// Appends a query, given by its numbers. \pre as many as the shape has
   /// \throws DatasetError if it cannot be written.

@@ -12,9 +12,9 @@ constexpr std::size_t reading_step = 4096;
 
 }  // namespace
 
-QueryGroup::QueryGroup(std::string name, Kind kind, const std::vector<Query>& queries)
+QueryGroup::QueryGroup(std::string name, AnyKind kind, const std::vector<Query>& queries)
     : QueryGroup(std::move(name), kind) {
-  const std::span<const double> numbers = Queries(kind, queries).numbers;
+  const std::span<const double> numbers = AnyQueries(kind, queries).numbers;
   numbers_.assign(numbers.begin(), numbers.end());
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/data/query_source.hpp"
 
 namespace touchstone::verify::data {
@@ -16,18 +16,19 @@ namespace touchstone::verify::data {
 /// Queries of one shape.
 class QueryGroup {
  public:
-  QueryGroup(std::string name, const QueryShape& shape) : name_(std::move(name)), shape_(shape) {}
+  QueryGroup(std::string name, const AnyShape& shape) : name_(std::move(name)), shape_(shape) {}
   /// A group on straight lines.
-  QueryGroup(std::string name, Kind kind) : QueryGroup(std::move(name), QueryShape{.kind = kind}) {}
+  QueryGroup(std::string name, AnyKind kind)
+      : QueryGroup(std::move(name), AnyShape{.kind = kind}) {}
 
   /// Generated queries.
-  QueryGroup(std::string name, Kind kind, const std::vector<Query>& queries);
+  QueryGroup(std::string name, AnyKind kind, const std::vector<Query>& queries);
 
   [[nodiscard]] const std::string& name() const { return name_; }
-  [[nodiscard]] const QueryShape& shape() const { return shape_; }
-  [[nodiscard]] Kind kind() const { return shape_.kind; }
+  [[nodiscard]] const AnyShape& shape() const { return shape_; }
+  [[nodiscard]] AnyKind kind() const { return shape_.kind; }
   /// By reference to the group, until it reads more.
-  [[nodiscard]] Queries queries() const { return {shape_, numbers_}; }
+  [[nodiscard]] AnyQueries queries() const { return {shape_, numbers_}; }
 
   /// Appends the queries of a source, up to its end or until `stopped`.
   /// \param progress called occasionally with the fraction of the source that is read.
@@ -37,7 +38,7 @@ class QueryGroup {
 
  private:
   std::string name_;
-  QueryShape shape_;
+  AnyShape shape_;
   std::vector<double> numbers_;
 };
 

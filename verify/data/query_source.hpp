@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "touchstone/any_kind.hpp"
 #include "touchstone/number.hpp"
-#include "touchstone/query.hpp"
 #include "verify/base/any_query.hpp"
 
 namespace touchstone::verify::data {
@@ -36,8 +36,8 @@ class QuerySource {
 
   /// The file's path, or the family's name.
   [[nodiscard]] virtual const std::string& name() const = 0;
-  [[nodiscard]] virtual QueryShape shape() const = 0;
-  [[nodiscard]] Kind kind() const { return shape().kind; }
+  [[nodiscard]] virtual AnyShape shape() const = 0;
+  [[nodiscard]] AnyKind kind() const { return shape().kind; }
 
   /// The separation of the recorded labels and times of impact.
   [[nodiscard]] virtual Separation recorded_separation() const { return {}; }

@@ -20,7 +20,7 @@ using generate::Random;
 using Vector = Eigen::Vector3d;
 
 /// The query under a random symmetry that keeps distances and the time.
-Query turned(Kind kind, const Query& query, Random& random) {
+Query turned(ContactKind kind, const Query& query, Random& random) {
   // A positive distance excludes symmetries that do not keep distances.
   generate::Symmetry symmetry =
       generate::draw_symmetry(kind, query, {.distance = 1.0, .norm = Norm::linf}, random);
@@ -55,27 +55,27 @@ int draw_bits(Random& random) {
 }
 
 /// The four points at the time of contact.
-std::array<Vector, moving_points> touching_points(Kind kind, Random& random) {
+std::array<Vector, moving_points> touching_points(ContactKind kind, Random& random) {
   Grid places(random, draw_bits(random)), shapes(random, draw_bits(random));
   const auto m = static_cast<std::int64_t>(1 + below(random, 6));
   const Vector p = places.draw(), a = shapes.draw(), b = shapes.draw();
   const std::int64_t i = random.between(0, m);
-  const std::int64_t j = random.between(0, kind == Kind::vertex_face ? m - i : m);
+  const std::int64_t j = random.between(0, kind == ContactKind::vertex_face ? m - i : m);
   const auto times = [](std::int64_t factor, const Vector& vector) -> Vector {
     return static_cast<double>(factor) * vector;
   };
-  if (kind == Kind::vertex_face) {
+  if (kind == ContactKind::vertex_face) {
     return {p + times(i, a) + times(j, b), p, p + times(m, a), p + times(m, b)};
   }
   return {p - times(i, a), p + times(m - i, a), p - times(j, b), p + times(m - j, b)};
 }
 
-std::array<Vector, moving_points> draw_velocities(Kind kind, Random& random) {
+std::array<Vector, moving_points> draw_velocities(ContactKind kind, Random& random) {
   Grid velocities(random, draw_bits(random));
   std::array<Vector, moving_points> result{};
   for (Vector& velocity : result) velocity = velocities.draw();
   if (one_in(random, 3)) {
-    const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+    const std::size_t second = kind == ContactKind::vertex_face ? 1 : 2;
     for (std::size_t point = 0; point < moving_points; ++point) {
       result.at(point) = result.at(point < second ? 0 : second);
     }
@@ -120,11 +120,11 @@ void put_edge_over_edge(Query& query, std::size_t end, Spot spot, Random& random
 }
 
 /// Projections that meet at all times, at height 0.
-Query draw_plan(Kind kind, Random& random) {
+Query draw_plan(ContactKind kind, Random& random) {
   Query query{};
   const auto spot = static_cast<Spot>(below(random, 3));
   for (std::size_t end = 0; end < 2; ++end) {
-    if (kind == Kind::vertex_face) {
+    if (kind == ContactKind::vertex_face) {
       put_vertex_over_face(query, end, spot, random);
     } else {
       put_edge_over_edge(query, end, spot, random);
@@ -152,8 +152,8 @@ Heights draw_heights(Random& random) {
           .second = {middle + start, middle + end}};
 }
 
-void put_heights(Kind kind, const Heights& heights, Query& query) {
-  const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+void put_heights(ContactKind kind, const Heights& heights, Query& query) {
+  const std::size_t second = kind == ContactKind::vertex_face ? 1 : 2;
   for (std::size_t end = 0; end < 2; ++end) {
     for (std::size_t point = 0; point < moving_points; ++point) {
       query.at(end, point, 2) = point < second ? heights.first.at(end) : heights.second.at(end);
@@ -166,8 +166,8 @@ void put_heights(Kind kind, const Heights& heights, Query& query) {
 Vector linear(double s, const Vector& a, double t, const Vector& b) { return s * a + t * b; }
 
 /// The position of point 0 with F = 0 at the time of these places. \pre u < 1 for edges
-Vector aim(Kind kind, const std::array<Vector, moving_points>& at_t, double u, double v) {
-  if (kind == Kind::vertex_face) {
+Vector aim(ContactKind kind, const std::array<Vector, moving_points>& at_t, double u, double v) {
+  if (kind == ContactKind::vertex_face) {
     return (1.0 - u - v) * at_t[1] + (u * at_t[2] + v * at_t[3]);
   }
   const Vector on_b = linear(1.0 - v, at_t[2], v, at_t[3]);
@@ -189,7 +189,7 @@ Vector draw_offset(const Separation& separation, Random& random) {
 }
 
 /// Level primitives that come to the distance at an end, or stay there.
-Query hovering(Kind kind, const Separation& separation, Random& random) {
+Query hovering(ContactKind kind, const Separation& separation, Random& random) {
   Query query = draw_plan(kind, random);
   const double d = separation.distance;
   const double size = std::min(d, 0x1p1000) * static_cast<double>(1U << below(random, 12));
@@ -205,7 +205,7 @@ Query hovering(Kind kind, const Separation& separation, Random& random) {
 
 }  // namespace
 
-Query grid_contact(Kind kind, Random& random) {
+Query grid_contact(ContactKind kind, Random& random) {
   const auto k = static_cast<int>(below(random, 4));
   const auto denominator = static_cast<double>(1 << k);
   const auto n = static_cast<double>(random.between(0, 1 << k));
@@ -226,7 +226,7 @@ Query grid_contact(Kind kind, Random& random) {
   return query;
 }
 
-Query level_contact(Kind kind, Random& random) {
+Query level_contact(ContactKind kind, Random& random) {
   Query query = draw_plan(kind, random);
   if (one_in(random, 6)) {
     for (std::size_t point = 0; point < moving_points; ++point) {
@@ -238,14 +238,15 @@ Query level_contact(Kind kind, Random& random) {
   return turned(kind, query, random);
 }
 
-Query rounded_contact(Kind kind, Random& random) {
+Query rounded_contact(ContactKind kind, Random& random) {
   Query query{};
   for (double& x : query.coordinates) x = random.uniform(-1.0, 1.0);
   const double t = one_in(random, 4) ? 1.0 : random.uniform(0.125, 1.0);
   double u = one_in(random, 4) ? 0.0 : random.uniform(0.0, 0.75);
-  double v =
-      one_in(random, 4) ? 0.0 : random.uniform(0.0, kind == Kind::vertex_face ? 1.0 - u : 1.0);
-  if (one_in(random, 8)) v = kind == Kind::vertex_face ? 1.0 - u : 1.0;
+  double v = one_in(random, 4)
+                 ? 0.0
+                 : random.uniform(0.0, kind == ContactKind::vertex_face ? 1.0 - u : 1.0);
+  if (one_in(random, 8)) v = kind == ContactKind::vertex_face ? 1.0 - u : 1.0;
   std::array<Vector, moving_points> at_t{};
   for (std::size_t point = 1; point < moving_points; ++point) {
     at_t.at(point) = linear(1.0 - t, point_of(query, 0, point), t, point_of(query, 1, point));
@@ -256,7 +257,7 @@ Query rounded_contact(Kind kind, Random& random) {
   return turned(kind, query, random);
 }
 
-Query contact_apart(Kind kind, const Separation& separation, Random& random) {
+Query contact_apart(ContactKind kind, const Separation& separation, Random& random) {
   if (random.coin()) return hovering(kind, separation, random);
   Query query = random.coin() ? level_contact(kind, random) : grid_contact(kind, random);
   // The size of the scene relative to the distance: from one to a million.
@@ -269,7 +270,7 @@ Query contact_apart(Kind kind, const Separation& separation, Random& random) {
     for (double& x : scaled.coordinates) x = std::ldexp(x, exponent);
     if (is_finite(scaled)) query = scaled;
   }
-  const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+  const std::size_t second = kind == ContactKind::vertex_face ? 1 : 2;
   const Vector offset = draw_offset(separation, random);
   Query moved = query;
   for (std::size_t end = 0; end < 2; ++end) {

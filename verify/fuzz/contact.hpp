@@ -15,25 +15,25 @@
 ///
 /// An exact symmetry is then applied (symmetry.hpp).
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::fuzz {
 
 /// A query on a grid that collides.
-[[nodiscard]] Query grid_contact(Kind kind, generate::Random& random);
+[[nodiscard]] Query grid_contact(ContactKind kind, generate::Random& random);
 
 /// A level query that collides.
-[[nodiscard]] Query level_contact(Kind kind, generate::Random& random);
+[[nodiscard]] Query level_contact(ContactKind kind, generate::Random& random);
 
 /// A query with full significands, one point of which is placed at F = 0 and rounded: a collision,
 /// or barely none.
-[[nodiscard]] Query rounded_contact(Kind kind, generate::Random& random);
+[[nodiscard]] Query rounded_contact(ContactKind kind, generate::Random& random);
 
 /// Level primitives whose nearest heights differ by the distance of the separation, rounded; or a
 /// contact as above, one primitive of which is moved by as much, in a direction that often has few
 /// bits. \pre distance > 0
-[[nodiscard]] Query contact_apart(Kind kind, const Separation& separation,
+[[nodiscard]] Query contact_apart(ContactKind kind, const Separation& separation,
                                   generate::Random& random);
 
 }  // namespace touchstone::verify::fuzz

@@ -33,7 +33,7 @@ std::vector<double> raised(const std::vector<double>& control) {
 
 /// The query of these control points; on rational curves with the weight weight_of(j) at each.
 template <class WeightOf>
-AnyQuery with_weights(const QueryShape& shape, const std::vector<double>& control,
+AnyQuery with_weights(const AnyShape& shape, const std::vector<double>& control,
                       const WeightOf& weight_of) {
   if (!shape.is_rational) return {shape, control};
   std::vector<double> numbers;
@@ -45,7 +45,7 @@ AnyQuery with_weights(const QueryShape& shape, const std::vector<double>& contro
 }
 
 /// Curves raised to the shape, on rational curves at another speed.
-AnyQuery raised_to(const QueryShape& shape, std::vector<double> control, Random& random) {
+AnyQuery raised_to(const AnyShape& shape, std::vector<double> control, Random& random) {
   while (control.size() < (shape.degree + 1) * control_size) control = raised(control);
   const auto exponent = static_cast<int>(random.between(-3, 3));
   return with_weights(shape, control, [&](std::size_t j) {
@@ -53,7 +53,7 @@ AnyQuery raised_to(const QueryShape& shape, std::vector<double> control, Random&
   });
 }
 
-bool can_be_raised(const generate::Family& family, const QueryShape& shape) {
+bool can_be_raised(const generate::Family& family, const AnyShape& shape) {
   if (!generate::supports(family, shape.kind)) return false;
   return family.is_rational ? shape.is_rational && family.degree == shape.degree
                             : family.degree <= shape.degree;
@@ -61,7 +61,7 @@ bool can_be_raised(const generate::Family& family, const QueryShape& shape) {
 
 }  // namespace
 
-AnyQuery at_other_speed(const QueryShape& shape, const Query& query, std::size_t turn) {
+AnyQuery at_other_speed(const AnyShape& shape, const Query& query, std::size_t turn) {
   std::vector<double> control;
   for (std::size_t j = 0; j <= shape.degree; ++j) {
     const auto* const end = query.coordinates.begin() + (j < turn ? 0 : control_size);
@@ -70,14 +70,14 @@ AnyQuery at_other_speed(const QueryShape& shape, const Query& query, std::size_t
   return with_weights(shape, control, [](std::size_t) { return 1.0; });
 }
 
-AnyQuery on_curves(const QueryShape& shape, const Query& query, Random& random) {
+AnyQuery on_curves(const AnyShape& shape, const Query& query, Random& random) {
   AnyQuery result = raised_to(shape, {query.coordinates.begin(), query.coordinates.end()}, random);
   const std::size_t turn = 1 + below(random, shape.degree);
   if (random.coin() || !is_finite(result.numbers())) return at_other_speed(shape, query, turn);
   return result;
 }
 
-std::optional<AnyQuery> of_curved_family(const QueryShape& shape, Random& random) {
+std::optional<AnyQuery> of_curved_family(const AnyShape& shape, Random& random) {
   std::vector<const generate::Family*> families;
   for (const generate::Family& family : generate::curved_families()) {
     if (can_be_raised(family, shape)) families.push_back(&family);
@@ -90,10 +90,10 @@ std::optional<AnyQuery> of_curved_family(const QueryShape& shape, Random& random
   return raised_to(shape, {query.numbers().begin(), query.numbers().end()}, random);
 }
 
-AnyQuery of_numbers(const QueryShape& shape, const Separation& separation, Random& random) {
+AnyQuery of_numbers(const AnyShape& shape, const Separation& separation, Random& random) {
   const bool is_whole = random.coin();
   const std::size_t groups = may_weights_differ(shape, separation) ? 1 + below(random, 3) : 1;
-  const std::size_t second = shape.kind == Kind::vertex_face ? 1 : 2;
+  const std::size_t second = shape.kind == ContactKind::vertex_face ? 1 : 2;
   const auto whole = [&](std::int64_t least, std::int64_t greatest) {
     return static_cast<double>(random.between(least, greatest));
   };
@@ -112,7 +112,7 @@ AnyQuery of_numbers(const QueryShape& shape, const Separation& separation, Rando
   return {shape, std::move(numbers)};
 }
 
-bool may_weights_differ(const QueryShape& shape, const Separation& separation) {
+bool may_weights_differ(const AnyShape& shape, const Separation& separation) {
   return is_zero(separation) || shape.degree == 1;
 }
 

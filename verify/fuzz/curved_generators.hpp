@@ -15,7 +15,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/base/any_query.hpp"
 #include "verify/generate/random_stream.hpp"
 
@@ -23,16 +23,16 @@ namespace touchstone::verify::fuzz {
 
 /// The query at another speed: at the end of its way from that control point on, 1 to the degree.
 /// Weights are 1.
-[[nodiscard]] base::AnyQuery at_other_speed(const QueryShape& shape, const Query& query,
+[[nodiscard]] base::AnyQuery at_other_speed(const AnyShape& shape, const Query& query,
                                             std::size_t turn);
 
 /// The finite query on curves of the shape: at another speed, or raised, where sums may round.
-[[nodiscard]] base::AnyQuery on_curves(const QueryShape& shape, const Query& query,
+[[nodiscard]] base::AnyQuery on_curves(const AnyShape& shape, const Query& query,
                                        generate::Random& random);
 
 /// A query of a family of known truth on curves (generate::curved_families()), raised to the shape;
 /// of a shape that no family can be raised to, nothing.
-[[nodiscard]] std::optional<base::AnyQuery> of_curved_family(const QueryShape& shape,
+[[nodiscard]] std::optional<base::AnyQuery> of_curved_family(const AnyShape& shape,
                                                              generate::Random& random);
 
 /// Control points about the same place, of small multiples of 1/4, which have many degenerate
@@ -40,11 +40,11 @@ namespace touchstone::verify::fuzz {
 /// primitive, or for each point.
 /// \param separation With a distance, for which the oracle takes seconds where weights differ,
 /// curves of a degree above 1 have one weight for all points.
-[[nodiscard]] base::AnyQuery of_numbers(const QueryShape& shape, const Separation& separation,
+[[nodiscard]] base::AnyQuery of_numbers(const AnyShape& shape, const Separation& separation,
                                         generate::Random& random);
 
 /// True if the oracle decides queries of the shape at the separation soon, whatever the weights.
-[[nodiscard]] bool may_weights_differ(const QueryShape& shape, const Separation& separation);
+[[nodiscard]] bool may_weights_differ(const AnyShape& shape, const Separation& separation);
 
 /// True unless the oracle may take long: on curves with a distance from which coordinates, but for
 /// zeros, differ by more than a factor of 2^64.

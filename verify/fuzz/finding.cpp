@@ -19,24 +19,24 @@ std::string tuple(std::span<const double> point) {
 }
 
 /// "v", "f0" and so on of a vertex and a triangle, "ea0" and so on of two edges.
-std::string_view point_name(Kind kind, std::size_t point) {
+std::string_view point_name(AnyKind kind, std::size_t point) {
   static constexpr std::array<std::string_view, moving_points> of_face{"v", "f0", "f1", "f2"};
   static constexpr std::array<std::string_view, moving_points> of_edges{"ea0", "ea1", "eb0", "eb1"};
-  static constexpr std::array<std::string_view, moving_points> of_element{"a", "b", "c", "d"};
-  if (is_element(kind)) return of_element.at(point);
-  return kind == Kind::vertex_face ? of_face.at(point) : of_edges.at(point);
+  static constexpr std::array<std::string_view, moving_points> of_cell{"a", "b", "c", "d"};
+  if (kind.is_cell()) return of_cell.at(point);
+  return kind == ContactKind::vertex_face ? of_face.at(point) : of_edges.at(point);
 }
 
 }  // namespace
 
-std::string to_text(const QueryShape& shape) {
+std::string to_text(const AnyShape& shape) {
   if (shape.is_straight()) return std::string(to_string(shape.kind));
   return fmt::format("{}, {}degree {}", to_string(shape.kind),
                      shape.is_rational ? "rational, " : "", shape.degree);
 }
 
 std::string as_points(const base::AnyQuery& query) {
-  const QueryShape& shape = query.shape();
+  const AnyShape& shape = query.shape();
   const std::size_t size = shape.numbers_of_point();
   std::string result;
   for (std::size_t point = 0; point < moving_points; ++point) {

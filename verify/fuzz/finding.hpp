@@ -10,15 +10,15 @@
 #include <string_view>
 
 #include "fast/method.hpp"
+#include "touchstone/any_kind.hpp"
 #include "touchstone/number.hpp"
-#include "touchstone/query.hpp"
 #include "verify/base/any_query.hpp"
 #include "verify/judge/fault.hpp"
 
 namespace touchstone::verify::fuzz {
 
 /// "vertex-face" on straight lines, "edge-edge, rational, degree 2" on curves.
-[[nodiscard]] std::string to_text(const QueryShape& shape);
+[[nodiscard]] std::string to_text(const AnyShape& shape);
 
 /// A line a point: its name, and its places at t=0 and t=1 or its control points, each with its
 /// weight, in decimals that are these very doubles.
@@ -76,7 +76,7 @@ struct Finding {
   std::string generator;      ///< that made the query
 
   /// Simpler queries are of the same kind, but may be on curves of a lower degree.
-  [[nodiscard]] Kind kind() const { return original.query.kind(); }
+  [[nodiscard]] AnyKind kind() const { return original.query.kind(); }
 };
 
 }  // namespace touchstone::verify::fuzz

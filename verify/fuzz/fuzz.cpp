@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "touchstone/certified.hpp"
+#include "verify/base/any_decision.hpp"
 #include "verify/fuzz/curved_generators.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/fuzz/plainness.hpp"
@@ -70,16 +71,16 @@ struct Image {
 
 /// Queries that are asked together: first those that generators made, then images of some of them.
 struct FuzzBlock {
-  QueryShape shape;
+  AnyShape shape;
   std::vector<double> numbers;
   std::vector<std::size_t> makers;  ///< by query: its generator
   std::vector<Image> images;        ///< the last queries
 
   [[nodiscard]] std::size_t size() const { return makers.size(); }
   [[nodiscard]] std::size_t made() const { return size() - images.size(); }
-  [[nodiscard]] Queries queries() const { return {shape, numbers}; }
+  [[nodiscard]] AnyQueries queries() const { return {shape, numbers}; }
   /// Query i as the only one.
-  [[nodiscard]] Queries query(std::size_t i) const { return queries().part(i, 1); }
+  [[nodiscard]] AnyQueries query(std::size_t i) const { return queries().part(i, 1); }
 
   /// The image that query i is, or null.
   [[nodiscard]] const Image* image(std::size_t i) const {
@@ -129,7 +130,7 @@ class FuzzBlockMaker {
   }
 
   /// Notes a hang at a query of the block.
-  void note_hang(const QueryShape& shape, std::size_t maker) { hangs_.add(sort_of(shape, maker)); }
+  void note_hang(const AnyShape& shape, std::size_t maker) { hangs_.add(sort_of(shape, maker)); }
 
   /// Seconds that a query may take now.
   [[nodiscard]] double query_limit() const { return hangs_.seconds(); }
@@ -138,16 +139,15 @@ class FuzzBlockMaker {
   [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
 
  private:
-  static std::vector<QueryShape> answered(std::vector<QueryShape> shapes,
-                                          const fast::Terms& terms) {
-    std::erase_if(shapes, [&](const QueryShape& shape) { return !terms.answers(shape); });
+  static std::vector<AnyShape> answered(std::vector<AnyShape> shapes, const fast::Terms& terms) {
+    std::erase_if(shapes, [&](const AnyShape& shape) { return !terms.answers(shape); });
     if (shapes.empty()) throw std::invalid_argument("fuzz: the solver answers none of the kinds");
     return shapes;
   }
 
   /// Keeps a query of the corpus, and one on straight lines for each shape.
   void keep(const AnyQuery& query) {
-    for (const QueryShape& shape : shapes_) {
+    for (const AnyShape& shape : shapes_) {
       if (shape.kind != query.kind()) continue;
       if (shape == query.shape()) {
         context_.pool(shape).keep(query);
@@ -157,7 +157,7 @@ class FuzzBlockMaker {
     }
   }
 
-  [[nodiscard]] std::string sort_of(const QueryShape& shape, std::size_t maker) const {
+  [[nodiscard]] std::string sort_of(const AnyShape& shape, std::size_t maker) const {
     return fmt::format("{} {}", generators_[maker].name, to_text(shape));
   }
 
@@ -194,7 +194,7 @@ class FuzzBlockMaker {
     }
   }
 
-  std::vector<QueryShape> shapes_;
+  std::vector<AnyShape> shapes_;
   const fast::Terms& terms_;
   solvers::HangLimits hangs_;
   const std::vector<Generator>& generators_;
@@ -265,7 +265,7 @@ class FuzzRun {
         standard_(standard_of(method, options)),
         oracle_share_(name_ == judge_name() ? 1.0 : options.oracle_share),
         generators_(generators(options.separation,
-                               !std::ranges::all_of(options.shapes, &QueryShape::is_straight))),
+                               !std::ranges::all_of(options.shapes, &AnyShape::is_straight))),
         maker_(method.info().terms, options, generators_),
         solver_(method, process_options(options)),
         method_options_(method_options(options)),
@@ -372,7 +372,7 @@ class FuzzRun {
   }
 
   void judge_together(std::size_t first, std::size_t count) {
-    fast::solve(block_.queries().part(first, count), std::span(judged_).subspan(first, count),
+    base::solve(block_.queries().part(first, count), std::span(judged_).subspan(first, count),
                 {.separation = options_.separation, .max_threads = 1});
   }
 
@@ -407,7 +407,7 @@ class FuzzRun {
       return;
     }
     ++result_.judged_by_oracle;
-    const exact::Decision verdict = exact::decide(question.query, 0, question.separation);
+    const exact::Decision verdict = base::decide(question.query, 0, question.separation);
     const judge::GroundTruth truth = judge::truth_of(result_.queries, verdict);
     if (name_ != judge_name()) {
       const auto of_judge = diagnose(question, truth, answer_of(judged_[i]),
@@ -448,7 +448,7 @@ class FuzzRun {
   void report_failure(std::size_t i, const judge::Failure& failure) {
     ++result_.judged_by_oracle;
     report(i, {diagnose_failure(failure, limit_), name_},
-           exact::decide(block_.queries(), i, options_.separation));
+           base::decide(block_.queries(), i, options_.separation));
   }
 
   /// The method that is wrong, and how.

@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "fast/method.hpp"
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/base/any_query.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/fuzz/finding.hpp"
@@ -59,7 +59,8 @@ struct FuzzOptions {
   /// Queries to mutate. Those on straight lines are also mutated on curves.
   std::vector<base::AnyQuery> corpus = {};
   /// Shapes of queries to ask, one a block in turn; not empty, of degrees above 0.
-  std::vector<QueryShape> shapes = {{.kind = Kind::vertex_face}, {.kind = Kind::edge_edge}};
+  std::vector<AnyShape> shapes = {{.kind = ContactKind::vertex_face},
+                                  {.kind = ContactKind::edge_edge}};
   /// The share of the queries that the oracle judges again; it judges all those of the method
   /// `certified`.
   double oracle_share = 0.01;

@@ -31,7 +31,7 @@ nlohmann::json texts_of(std::span<const double> numbers) {
 
 /// Adds the numbers of a query in the form that to_json describes.
 void add_numbers(const base::AnyQuery& query, nlohmann::json& json) {
-  const QueryShape& shape = query.shape();
+  const AnyShape& shape = query.shape();
   json["degree"] = shape.degree;
   json["rational"] = shape.is_rational;
   json["numbers"] = query.numbers();

@@ -61,9 +61,9 @@ void nudge(Query& query, Random& random) { nudge_numbers(query.coordinates, rand
 
 /// Moves the points at one end by up to 2^-20 of their way, forwards or backwards: an event at that
 /// end then happens slightly earlier or not at all. All points, or the first primitive's.
-void overshoot(Kind kind, Query& query, Random& random) {
+void overshoot(ContactKind kind, Query& query, Random& random) {
   const std::size_t end = below(random, 2);
-  const std::size_t first_primitive = kind == Kind::vertex_face ? 1 : 2;
+  const std::size_t first_primitive = kind == ContactKind::vertex_face ? 1 : 2;
   const std::size_t count = random.coin() ? moving_points : first_primitive;
   const double part =
       std::ldexp(random.coin() ? 1.0 : -1.0, -static_cast<int>(random.between(20, 52)));
@@ -78,7 +78,7 @@ void overshoot(Kind kind, Query& query, Random& random) {
 // ---- Structured coordinates ---------------------------------------------------------------------
 
 /// Small integers times a power of two.
-Query few_bits(Kind /*kind*/, const GeneratorContext& /*context*/, Random& random) {
+Query few_bits(ContactKind /*kind*/, const GeneratorContext& /*context*/, Random& random) {
   static constexpr std::array<std::int64_t, 5> bounds{1, 2, 3, 8, 60};
   const std::int64_t bound = bounds.at(below(random, bounds.size()));
   Query query{};
@@ -90,7 +90,7 @@ Query few_bits(Kind /*kind*/, const GeneratorContext& /*context*/, Random& rando
 
 /// A few numbers for each axis, with full significands, for all coordinates, so that many are
 /// equal.
-Query grid(Kind /*kind*/, const GeneratorContext& /*context*/, Random& random) {
+Query grid(ContactKind /*kind*/, const GeneratorContext& /*context*/, Random& random) {
   std::array<std::array<double, 4>, 3> palettes{};
   const std::array<double, 3> scales = draws::scales(random);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -133,7 +133,7 @@ void force_degeneracy(Query& query, Random& random) {
 }
 
 /// Random points, some of them shared, at rest, or with equal coordinates.
-Query shared_vertices(Kind kind, const GeneratorContext& context, Random& random) {
+Query shared_vertices(ContactKind kind, const GeneratorContext& context, Random& random) {
   Query query{};
   if (random.coin()) {
     query = few_bits(kind, context, random);
@@ -148,33 +148,33 @@ Query shared_vertices(Kind kind, const GeneratorContext& context, Random& random
 
 // ---- Contact ------------------------------------------------------------------------------------
 
-Query contact_on_grid(Kind kind, const GeneratorContext& /*context*/, Random& random) {
+Query contact_on_grid(ContactKind kind, const GeneratorContext& /*context*/, Random& random) {
   Query query = grid_contact(kind, random);
   if (one_in(random, 6)) overshoot(kind, query, random);
   if (!one_in(random, 3)) nudge(query, random);
   return query;
 }
 
-Query contact_at_level(Kind kind, const GeneratorContext& /*context*/, Random& random) {
+Query contact_at_level(ContactKind kind, const GeneratorContext& /*context*/, Random& random) {
   Query query = level_contact(kind, random);
   if (random.coin()) nudge(query, random);
   return query;
 }
 
-Query contact_rounded(Kind kind, const GeneratorContext& /*context*/, Random& random) {
+Query contact_rounded(ContactKind kind, const GeneratorContext& /*context*/, Random& random) {
   Query query = rounded_contact(kind, random);
   if (random.coin()) nudge(query, random);
   return query;
 }
 
-Query everyday(Kind kind, const GeneratorContext& /*context*/, Random& random) {
+Query everyday(ContactKind kind, const GeneratorContext& /*context*/, Random& random) {
   if (one_in(random, 8)) return generate::everyday_near_contact(kind, random);
   Query query = generate::everyday_contact(kind, random);
   if (one_in(random, 8)) nudge(query, random);
   return query;
 }
 
-Query apart(Kind kind, const GeneratorContext& context, Random& random) {
+Query apart(ContactKind kind, const GeneratorContext& context, Random& random) {
   Query query = contact_apart(kind, context.separation(), random);
   if (one_in(random, 4)) overshoot(kind, query, random);
   if (random.coin()) nudge(query, random);
@@ -187,47 +187,55 @@ AnyQuery decided_soon(AnyQuery query, const GeneratorContext& context, Random& r
   return of_numbers(query.shape(), context.separation(), random);
 }
 
-/// The element with a positive volume at t=0, mostly.
-Query upright(Kind kind, Query query, Random& random) {
+/// The cell with a positive volume at t=0, mostly.
+Query upright(CellKind kind, Query query, Random& random) {
   Query at_rest = query;
   for (std::size_t point = 0; point < moving_points; ++point) {
     point_of(at_rest, 1, point) = point_of(query, 0, point);
   }
-  const bool starts_inverted = fast::solve(kind, at_rest).verdict == fast::Verdict::yes;
+  const bool starts_inverted = fast::inversion(kind, at_rest).verdict == fast::Verdict::yes;
   if (!starts_inverted || one_in(random, 8)) return query;
   for (const std::size_t end : {0U, 1U}) point_of(query, end, 1).swap(point_of(query, end, 2));
   return query;
 }
 
-/// A generator of queries on straight lines, which also makes them queries on curves. Points that
-/// touch as two edges are in one plane: the volume of a tetrahedron is 0.
-template <Query (*make)(Kind, const GeneratorContext&, Random&)>
-AnyQuery lines(const QueryShape& shape, const GeneratorContext& context, Random& random) {
-  const Query query = make(shape.kind, context, random);
-  if (is_element(shape.kind)) return {shape.kind, upright(shape.kind, query, random)};
+/// A query on straight lines as one of a shape, also on curves. Points that touch as two edges are
+/// in one plane: the volume of a tetrahedron is 0.
+AnyQuery posed(const AnyShape& shape, const Query& query, const GeneratorContext& context,
+               Random& random) {
+  if (shape.kind.is_cell()) return {shape.kind, upright(shape.kind.cell(), query, random)};
   if (shape.is_straight()) return {shape.kind, query};
   return decided_soon(on_curves(shape, query, random), context, random);
 }
 
-// ---- From other queries -------------------------------------------------------------------------
-
-Query family(Kind kind, const GeneratorContext& context, Random& random) {
-  const std::vector<generate::Family>& families = context.families(kind);
-  const generate::Family& chosen = families.at(below(random, families.size()));
-  const std::uint64_t seed = random.bits();
-  return generate::make_query(chosen, kind, seed, below(random, 1000), context.separation()).query;
+template <Query (*make)(ContactKind, const GeneratorContext&, Random&)>
+AnyQuery lines(const AnyShape& shape, const GeneratorContext& context, Random& random) {
+  const ContactKind kind = shape.kind.is_cell() ? ContactKind::edge_edge : shape.kind.contact();
+  return posed(shape, make(kind, context, random), context, random);
 }
 
-AnyQuery from_pool(const QueryShape& shape, const GeneratorContext& context, Random& random) {
+// ---- From other queries -------------------------------------------------------------------------
+
+AnyQuery family(const AnyShape& shape, const GeneratorContext& context, Random& random) {
+  const std::vector<generate::Family>& families = context.families(shape.kind);
+  const generate::Family& chosen = families.at(below(random, families.size()));
+  const std::uint64_t seed = random.bits();
+  const auto known =
+      generate::make_query(chosen, shape.kind, seed, below(random, 1000), context.separation());
+  return posed(shape, known.query, context, random);
+}
+
+AnyQuery from_pool(const AnyShape& shape, const GeneratorContext& context, Random& random) {
   const QueryPool& pool = context.pool(shape);
   if (pool.empty() || one_in(random, 16)) return lines<contact_on_grid>(shape, context, random);
   return pool.draw(random);
 }
 
-AnyQuery mutate(const QueryShape& shape, const GeneratorContext& context, Random& random) {
+AnyQuery mutate(const AnyShape& shape, const GeneratorContext& context, Random& random) {
   const bool changes_weights = may_weights_differ(shape, context.separation());
   AnyQuery query = mutated(from_pool(shape, context, random), changes_weights, random);
-  if (is_element(shape.kind)) return {shape.kind, upright(shape.kind, query.straight(), random)};
+  if (shape.kind.is_cell())
+    return {shape.kind, upright(shape.kind.cell(), query.straight(), random)};
   return decided_soon(std::move(query), context, random);
 }
 
@@ -242,7 +250,7 @@ std::pair<int, int> draw_exponents(const Separation& separation, Random& random)
 
 /// A query of another generator far from 1, with a greatest coordinate from 2^-1000 to 2^1000,
 /// sometimes for each axis separately.
-AnyQuery scaled(const QueryShape& shape, const GeneratorContext& context, Random& random) {
+AnyQuery scaled(const AnyShape& shape, const GeneratorContext& context, Random& random) {
   AnyQuery result = from_pool(shape, context, random);
   std::array<double, point_axes> greatest{};
   for (std::size_t axis = 0; axis < point_axes; ++axis) {
@@ -267,17 +275,17 @@ AnyQuery scaled(const QueryShape& shape, const GeneratorContext& context, Random
 
 // ---- Curves -------------------------------------------------------------------------------------
 
-AnyQuery curved_family(const QueryShape& shape, const GeneratorContext& context, Random& random) {
+AnyQuery curved_family(const AnyShape& shape, const GeneratorContext& context, Random& random) {
   if (auto query = of_curved_family(shape, random)) return *std::move(query);
-  return lines<family>(shape, context, random);
+  return family(shape, context, random);
 }
 
-AnyQuery control_points(const QueryShape& shape, const GeneratorContext& context, Random& random) {
+AnyQuery control_points(const AnyShape& shape, const GeneratorContext& context, Random& random) {
   return of_numbers(shape, context.separation(), random);
 }
 
 constexpr std::array<Generator, 13> all_generators{{
-    {"family", lines<family>},
+    {"family", family},
     {"few_bits", lines<few_bits>},
     {"grid", lines<grid>},
     {"shared_vertices", lines<shared_vertices>},
@@ -312,9 +320,8 @@ const AnyQuery& QueryPool::draw(Random& random) const {
 GeneratorContext::GeneratorContext(const Separation& separation) : separation_(separation) {
   const std::vector<std::string> straight{"1"};
   for (const generate::Family& family : generate::families(separation, straight)) {
-    for (const Kind kind : all_kinds) {
-      if (generate::supports(family, kind))
-        families_.at(static_cast<std::size_t>(kind)).push_back(family);
+    for (const AnyKind kind : all_kinds) {
+      if (generate::supports(family, kind)) families_.at(kind.index()).push_back(family);
     }
   }
 }

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/base/any_query.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/random_stream.hpp"
@@ -51,18 +51,18 @@ class GeneratorContext {
 
   [[nodiscard]] const Separation& separation() const { return separation_; }
   /// The families that have queries of the kind for the separation.
-  [[nodiscard]] const std::vector<generate::Family>& families(Kind kind) const {
-    return families_.at(static_cast<std::size_t>(kind));
+  [[nodiscard]] const std::vector<generate::Family>& families(AnyKind kind) const {
+    return families_.at(kind.index());
   }
-  [[nodiscard]] const QueryPool& pool(const QueryShape& shape) const {
+  [[nodiscard]] const QueryPool& pool(const AnyShape& shape) const {
     return pools_.at(place_of(shape));
   }
-  [[nodiscard]] QueryPool& pool(const QueryShape& shape) { return pools_.at(place_of(shape)); }
+  [[nodiscard]] QueryPool& pool(const AnyShape& shape) { return pools_.at(place_of(shape)); }
 
  private:
-  static std::size_t place_of(const QueryShape& shape) {
+  static std::size_t place_of(const AnyShape& shape) {
     const std::size_t curves = 2 * shape.degree + (shape.is_rational ? 1 : 0);
-    return all_kinds.size() * curves + static_cast<std::size_t>(shape.kind);
+    return all_kinds.size() * curves + shape.kind.index();
   }
 
   Separation separation_;
@@ -76,7 +76,7 @@ struct Generator {
   std::string_view name;
   /// Generates a query of finite coordinates and positive weights: a function of the arguments
   /// alone. \pre a degree above 0
-  AnyQuery (*make)(const QueryShape& shape, const GeneratorContext& context,
+  AnyQuery (*make)(const AnyShape& shape, const GeneratorContext& context,
                    generate::Random& random);
   /// True if it needs a positive separation.
   bool needs_distance = false;

@@ -87,10 +87,10 @@ bool is_collapsed_edge(const Places& places, std::size_t first) {
 }
 
 bool is_collapsed(const AnyQuery& query) {
-  if (is_element(query.kind())) return false;
+  if (query.kind().is_cell()) return false;
   return std::ranges::any_of(std::array{0.0, 1.0}, [&](double end) {
     const Places places = places_at(query, end);
-    return query.kind() == Kind::vertex_face
+    return query.kind() == ContactKind::vertex_face
                ? is_collapsed_triangle(places)
                : is_collapsed_edge(places, 0) || is_collapsed_edge(places, 2);
   });

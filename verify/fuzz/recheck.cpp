@@ -10,6 +10,7 @@
 
 #include "touchstone/certificate.hpp"
 #include "touchstone/certificate_text.hpp"
+#include "verify/base/any_decision.hpp"
 #include "verify/fuzz/shrink.hpp"
 #include "verify/judge/claimed_distance.hpp"
 #include "verify/judge/separation_inference.hpp"
@@ -40,7 +41,7 @@ bool lacks_same_bounds(const Answer& a, const Answer& b) {
 std::string certificate(const AnyQuery& query, const exact::Decision& verdict,
                         std::string_view label) {
   try {
-    return exact::certificate_stream(exact::prove(query.queries(), 0, verdict, {}), label);
+    return exact::certificate_stream(base::prove(query.queries(), 0, verdict), label);
   } catch (const exact::CertificateLimitError&) {
     return {};
   }
@@ -96,7 +97,7 @@ std::optional<FailingCase> Recheck::ask(const AnyQuery& query, const base::Deadl
   if (!judge::admits(standard_.terms, query, separation_)) return std::nullopt;
   const std::optional<Reply> reply = reply_to(query, deadline);
   if (!reply) return std::nullopt;
-  const exact::Decision verdict = exact::decide(query.queries(), 0, separation_);
+  const exact::Decision verdict = base::decide(query.queries(), 0, separation_);
   const auto diagnosis = diagnose_reply(query, judge::truth_of(0, verdict), *reply);
   if (!diagnosis || !is_same(*diagnosis)) return std::nullopt;
   const bool is_slight = judge::is_slight(
@@ -110,7 +111,7 @@ std::optional<Recheck::Reply> Recheck::reply_to(const AnyQuery& query,
                                                 const base::Deadline& deadline) {
   if (of_judge_) {
     fast::CertifiedResult result;
-    fast::solve(query.queries(), {&result, 1}, {.separation = separation_, .max_threads = 1});
+    base::solve(query.queries(), {&result, 1}, {.separation = separation_, .max_threads = 1});
     return Reply{.answer = answer_of(result), .failure = std::nullopt};
   }
   Reply reply;
@@ -216,7 +217,7 @@ bool is_beyond_doubt(const judge::Question& question, const CertifiedResult& jud
   if (truth.collides) return true;
   const auto claimed = judge::claim_of(question, answer, standard);
   if (!claimed) return true;
-  const Kind kind = question.query.kind;
+  const ContactKind kind = question.query.kind.contact();
   const Query& query = question.query.straight().front();
   return (claimed->norm == Norm::linf &&
           judge::is_seen_within(kind, query, answer.toi_lower, claimed->distance)) ||

@@ -11,8 +11,8 @@
 #include <string_view>
 
 #include "fast/method.hpp"
+#include "touchstone/any_kind.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/query.hpp"
 #include "verify/base/any_query.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/fuzz/finding.hpp"
@@ -130,7 +130,7 @@ struct Signature {
   std::string method;
   judge::Fault what = judge::Fault::false_negative;
   bool is_slight = false;  ///< true for a time that is late slightly
-  Kind kind = Kind::vertex_face;
+  AnyKind kind = ContactKind::vertex_face;
   Shape shape = Shape::general;
 
   // clang-tidy 14 takes the comparison of the bool for a conversion.

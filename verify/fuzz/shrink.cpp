@@ -138,7 +138,7 @@ class Shrinker {
     return attempt(plainer);
   }
 
-  [[nodiscard]] const QueryShape& shape() const { return query_.shape(); }
+  [[nodiscard]] const AnyShape& shape() const { return query_.shape(); }
   [[nodiscard]] std::size_t point_size() const { return shape().numbers_of_point(); }
   /// From a number of a control point to the same number of the next one.
   [[nodiscard]] std::size_t next() const { return to_next_control(query_); }
@@ -175,13 +175,13 @@ class Shrinker {
       const auto control = std::as_const(query_).numbers().subspan(j * next(), next());
       numbers.insert(numbers.end(), control.begin(), control.end());
     }
-    QueryShape of_kept = shape();
+    AnyShape of_kept = shape();
     of_kept.degree = kept.size() - 1;
     return {of_kept, std::move(numbers)};
   }
 
   static AnyQuery without_weights(const AnyQuery& query) {
-    QueryShape bare = query.shape();
+    AnyShape bare = query.shape();
     bare.is_rational = false;
     std::vector<double> numbers;
     for_each_coordinate(query, point_axes, [&](double x) { numbers.push_back(x); });
@@ -191,7 +191,7 @@ class Shrinker {
   /// The control points c of the next lower degree k that gave those b of the query's degree, if
   /// they did: (k+1) b_j = j c_(j−1) + (k+1−j) c_j.
   [[nodiscard]] AnyQuery reduced() const {
-    QueryShape lower = shape();
+    AnyShape lower = shape();
     --lower.degree;
     const auto all = std::as_const(query_).numbers();
     std::vector<double> numbers(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(next()));

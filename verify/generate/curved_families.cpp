@@ -127,7 +127,7 @@ struct Rotation {
 
 /// Control point k of a vertex that turns towards a triangle, or of an edge along the axis that
 /// turns towards a crossing one.
-Points turning(Kind kind, const Rotation& rotation, std::size_t k) {
+Points turning(ContactKind kind, const Rotation& rotation, std::size_t k) {
   const double square = rotation.eighth * rotation.eighth;
   const double normal_x = 64.0 - square, normal_y = 16.0 * rotation.eighth;
   const auto across = [&](double x, double y, double height) -> std::array<double, 3> {
@@ -141,7 +141,7 @@ Points turning(Kind kind, const Rotation& rotation, std::size_t k) {
     const double out = 1.0 + rotation.gap;
     return across(out * normal_x - along * normal_y, out * normal_y + along * normal_x, height);
   };
-  if (kind == Kind::vertex_face) {
+  if (kind == ContactKind::vertex_face) {
     return {turned(0), in_plane(-1, -1), in_plane(2, -1), in_plane(-1, 2)};
   }
   return {turned(-3), turned(2), in_plane(-1, -1), in_plane(2, 1)};
@@ -168,8 +168,9 @@ base::AnyQuery moved_query(const QueryShape& shape, Draws& draws, const PointsAt
 
 /// In a common plane, at this place beside the triangle (outside if positive), or before the end of
 /// the other edge.
-Points beside(Kind kind, double place) {
-  if (kind == Kind::vertex_face) return {{{1, -place, 0}, {0, 0, 0}, {4, 0, 0}, {0, 4096, 0}}};
+Points beside(ContactKind kind, double place) {
+  if (kind == ContactKind::vertex_face)
+    return {{{1, -place, 0}, {0, 0, 0}, {4, 0, 0}, {0, 4096, 0}}};
   return {{{1, place, 0}, {1, place + 4096, 0}, {0, 0, 0}, {4, 0, 0}}};
 }
 
@@ -188,7 +189,7 @@ struct HeightConstruction {
   std::string_view reason;
   Height (Draws::*height)();
   Verdicts verdicts = Verdicts::collisions;
-  Points (*place)(Kind, double) = &above;
+  Points (*place)(ContactKind, double) = &above;
 };
 
 constexpr std::array<HeightConstruction, 7> heights{
@@ -248,8 +249,8 @@ data::RecordedQuery draw_turning(bool misses, const QueryShape& shape, Draws& dr
 
 }  // namespace
 
-Points above(Kind kind, double height) {
-  if (kind == Kind::vertex_face) {
+Points above(ContactKind kind, double height) {
+  if (kind == ContactKind::vertex_face) {
     return {{{1, 1, height}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
   }
   return {{{-3, 0, height}, {2, 0, height}, {0, -2, 0}, {0, 3, 0}}};
@@ -270,7 +271,8 @@ std::span<const Family> curved_families() {
   return all;
 }
 
-std::function<data::RecordedQuery(std::uint64_t)> curved_draws(const Family& family, Kind kind,
+std::function<data::RecordedQuery(std::uint64_t)> curved_draws(const Family& family,
+                                                               ContactKind kind,
                                                                std::uint64_t seed) {
   const QueryShape shape{kind, family.degree, family.is_rational};
   if (family.is_rational) {

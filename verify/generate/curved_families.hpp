@@ -20,7 +20,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/data/query_source.hpp"
 #include "verify/generate/families.hpp"
 
@@ -29,12 +29,12 @@ namespace touchstone::verify::generate {
 /// Draws query number `index` of a family on curves; to be called with 0, 1, 2, … in order.
 /// \pre the family is one of curved_families()
 [[nodiscard]] std::function<data::RecordedQuery(std::uint64_t index)> curved_draws(
-    const Family& family, Kind kind, std::uint64_t seed);
+    const Family& family, ContactKind kind, std::uint64_t seed);
 
 /// The points of a query at a control point, before the whole is moved.
 using Points = std::array<std::array<double, 3>, moving_points>;
 
 /// The points at this height above the middle of a triangle or an edge.
-[[nodiscard]] Points above(Kind kind, double height);
+[[nodiscard]] Points above(ContactKind kind, double height);
 
 }  // namespace touchstone::verify::generate

@@ -34,11 +34,11 @@ KnownQuery on_a_line(Recipe& recipe, const Places& places, bool ranges_meet, Cha
     g = draw_vector(recipe.random, size.shape);
     shift = draw_unit_shift(recipe.random);
     move_rigidly(recipe, size, moment);
-  } while (determinant(g, moment.relative_velocity(recipe.kind), shift) == 0);
+  } while (determinant(g, moment.relative_velocity(recipe.contact()), shift) == 0);
   for (std::size_t point = 0; point < moving_points; ++point) {
     moment.position.at(point) = p + places.at(point) * g;
   }
-  if (change == Change::moved_off_line) shift_first(recipe.kind, shift, moment);
+  if (change == Change::moved_off_line) shift_first(recipe.contact(), shift, moment);
   const Query query = to_query(recipe, moment);
   if (!ranges_meet || change == Change::moved_off_line) return no_collision(query);
   return collision(query, moment.time.value());
@@ -108,7 +108,7 @@ KnownQuery zero_length_edges(Recipe& recipe) {
   Moment moment;
   moment.time = draw_inner_time(recipe.random);
   move_rigidly(recipe, size, moment);
-  while (moment.relative_velocity(recipe.kind)[2] == 0) move_rigidly(recipe, size, moment);
+  while (moment.relative_velocity(recipe.contact())[2] == 0) move_rigidly(recipe, size, moment);
   for (Vector& velocity : moment.velocity) {
     const Vector own = draw_vector(recipe.random, size.velocity);
     velocity = {own[0], own[1], velocity[2]};
@@ -124,7 +124,7 @@ KnownQuery zero_length_edges(Recipe& recipe) {
   const Vector front = all_collapse ? p : p + after * g;
   moment.position = recipe.vertex_face() ? std::array<Vector, 4>{p, back, front, front}
                                          : std::array<Vector, 4>{back, front, p, p};
-  if (!collides) shift_first(recipe.kind, shift, moment);
+  if (!collides) shift_first(recipe.contact(), shift, moment);
   const Query query = to_query(recipe, moment);
   if (!collides) return no_collision(query);
   return collision(query, moment.time.value());
@@ -163,7 +163,7 @@ KnownQuery collinear_edges(Recipe& recipe) {
     moment.position.at(point) = p + start * g;
     moment.velocity.at(point) = common + (places[1].at(point) - start) * g;
   }
-  if (variant == 4) shift_first(recipe.kind, shift, moment);
+  if (variant == 4) shift_first(recipe.contact(), shift, moment);
   const Query query = to_query(recipe, moment);
   if (gap1 > 0 || variant == 4) return no_collision(query);
   Rational toi{Integer(gap0), Integer(gap0 - gap1)};

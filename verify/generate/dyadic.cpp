@@ -64,8 +64,8 @@ Moment draw_rigid(Recipe& recipe, const Weights& weights, const DyadicTime& time
   while (!crosses) {
     place_points(recipe, size, weights, moment);
     move_rigidly(recipe, size, moment);
-    const auto [e1, e2] = moment.edges(recipe.kind);
-    crosses = determinant(e1, e2, moment.relative_velocity(recipe.kind)) != 0;
+    const auto [e1, e2] = moment.edges(recipe.contact());
+    crosses = determinant(e1, e2, moment.relative_velocity(recipe.contact())) != 0;
   }
   return moment;
 }
@@ -104,15 +104,15 @@ Rational ratio(const Integer& numerator, const Integer& denominator) {
 /// zero at (τ,u,v); now s + du E1 + dv E2 + dt 2^k r = 0 has one solution, by Cramer's rule, and
 /// the query collides iff (τ+dt, u+du, v+dv) is in the domain.
 KnownQuery shifted(Recipe& recipe, const Weights& weights, Moment moment, const Vector& s) {
-  const auto [e1, e2] = moment.edges(recipe.kind);
-  const Vector r = moment.relative_velocity(recipe.kind);
+  const auto [e1, e2] = moment.edges(recipe.contact());
+  const Vector r = moment.relative_velocity(recipe.contact());
   const Integer all = determinant(e1, e2, r);
   const Integer total(weights.total);
   const Rational u(ratio(weights.first, total) - ratio(determinant(s, e2, r), all));
   const Rational v(ratio(weights.second, total) - ratio(determinant(e1, s, r), all));
   const Rational t(moment.time.value() -
                    ratio(determinant(e1, e2, s), Integer(all * moment.time.denominator())));
-  shift_first(recipe.kind, s, moment);
+  shift_first(recipe.contact(), s, moment);
   const Query query = to_query(recipe, moment);
   const bool in_time = t >= 0 && t <= 1;
   const bool in_domain = u >= 0 && v >= 0 && (recipe.vertex_face() ? u + v <= 1 : u <= 1 && v <= 1);
@@ -165,11 +165,11 @@ KnownQuery no_motion(Recipe& recipe) {
   while (!independent) {
     place_points(recipe, size, weights, moment);
     off_plane = draw_unit_shift(recipe.random);
-    const auto [e1, e2] = moment.edges(recipe.kind);
+    const auto [e1, e2] = moment.edges(recipe.contact());
     independent = determinant(e1, e2, off_plane) != 0;
   }
   if (recipe.random.coin()) moment.velocity.fill(draw_vector(recipe.random, size.velocity));
-  if (variant == 5) shift_first(recipe.kind, off_plane, moment);
+  if (variant == 5) shift_first(recipe.contact(), off_plane, moment);
   const Query query = to_query(recipe, moment);
   const bool collides = variant != 5 && places.at(variant) != Place::outside;
   return collides ? collision(query, Rational(0)) : no_collision(query);

@@ -26,14 +26,14 @@ struct Roles {
   std::size_t rest_begin_of_second;
   bool first_has_rest;
 
-  explicit Roles(Kind kind)
-      : second(kind == Kind::vertex_face ? 1 : 2),
+  explicit Roles(ContactKind kind)
+      : second(kind == ContactKind::vertex_face ? 1 : 2),
         rest_begin_of_second(second + 1),
-        first_has_rest(kind == Kind::edge_edge) {}
+        first_has_rest(kind == ContactKind::edge_edge) {}
 };
 
 /// Draws x of the rest: of the first primitive in one zone, of the second in another.
-void draw_rest_x(Kind kind, const Zone& of_first, const Zone& of_second, Sampler& sampler,
+void draw_rest_x(ContactKind kind, const Zone& of_first, const Zone& of_second, Sampler& sampler,
                  Query& query) {
   const Roles roles(kind);
   if (roles.first_has_rest) set(query, 1, 0, sampler.within(0, of_first));
@@ -54,11 +54,11 @@ void draw_rest_yz(Sampler& sampler, Query& query) {
 /// The pair has the same doubles at t=1. In x, at t=0, the first primitive is left of the second,
 /// and at t=1 too but for the pair: every corner has x < 0 for all t < 1. Hence toi = 1.
 KnownQuery pair_at_end(Recipe& recipe) {
-  const Roles roles(recipe.kind);
+  const Roles roles(recipe.contact());
   Sampler sampler(recipe);
   Query query{};
   draw_rest_yz(sampler, query);
-  draw_rest_x(recipe.kind, left, right, sampler, query);
+  draw_rest_x(recipe.contact(), left, right, sampler, query);
   set(query, roles.first, 0, sampler.from_to(0, lower, centre));
   set(query, roles.second, 0, sampler.from_to(0, upper, centre));
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -76,10 +76,10 @@ KnownQuery contact_at_end(Recipe& recipe) {
   if (variant == 0) return pair_at_end(recipe);
   Sampler sampler(recipe);
   Query query{};
-  draw_plan(recipe.kind, spots.at(variant), Offset::none, sampler, query);
+  draw_plan(recipe.contact(), spots.at(variant), Offset::none, sampler, query);
   const Line second = sampler.within(2, centre);
   const Line first{sampler.draw(2, {-3.0, -1.0}), second.end};
-  set_heights(recipe.kind, first, second, query);
+  set_heights(recipe.contact(), first, second, query);
   return level_outcome(Offset::none, first, second, query);
 }
 
@@ -88,11 +88,11 @@ KnownQuery contact_at_end(Recipe& recipe) {
 /// every corner has x > 0 for all t > 0, and at t = 0 only the pair's corner can be zero.
 KnownQuery start_left(Recipe& recipe) {
   const std::size_t variant = recipe.variant % 4;
-  const Roles roles(recipe.kind);
+  const Roles roles(recipe.contact());
   Sampler sampler(recipe);
   Query query{};
   draw_rest_yz(sampler, query);
-  draw_rest_x(recipe.kind, right, left, sampler, query);
+  draw_rest_x(recipe.contact(), right, left, sampler, query);
   set(query, roles.first, 0, sampler.from_to(0, centre, right));
   set(query, roles.second, 0, sampler.from_to(0, centre, left));
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -111,11 +111,11 @@ KnownQuery start_left(Recipe& recipe) {
 /// and the rest is apart in y: y separates.
 KnownQuery swap_at_half(Recipe& recipe) {
   const bool is_apart = recipe.variant % 3 == 2;
-  const Roles roles(recipe.kind);
+  const Roles roles(recipe.contact());
   Sampler sampler(recipe);
   Query query{};
   draw_rest_yz(sampler, query);
-  draw_rest_x(recipe.kind, left, right, sampler, query);
+  draw_rest_x(recipe.contact(), left, right, sampler, query);
   set(query, roles.first, 0, sampler.from_to(0, lower, upper));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     query.at(0, roles.second, axis) = query.at(1, roles.first, axis);

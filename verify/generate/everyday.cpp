@@ -26,7 +26,8 @@ struct ContactPlaces {
 /// Draws scenes of up to a number of units.
 class Scene {
  public:
-  Scene(Kind kind, std::int64_t size, Random& random) : kind_(kind), size_(size), random_(random) {}
+  Scene(ContactKind kind, std::int64_t size, Random& random)
+      : kind_(kind), size_(size), random_(random) {}
 
   [[nodiscard]] ContactPlaces draw_contact() {
     ContactPlaces contact;
@@ -59,7 +60,7 @@ class Scene {
   }
 
   /// The first primitive's points begin with 0, the second one's with this.
-  [[nodiscard]] std::size_t second() const { return kind_ == Kind::vertex_face ? 1 : 2; }
+  [[nodiscard]] std::size_t second() const { return kind_ == ContactKind::vertex_face ? 1 : 2; }
 
  private:
   std::int64_t between(std::int64_t low, std::int64_t high) { return random_.between(low, high); }
@@ -106,7 +107,7 @@ class Scene {
     const auto put = [&](std::size_t point, std::int64_t x, std::int64_t y) {
       places.at(point) = middle + Vector{x, y, 0};
     };
-    if (kind_ == Kind::vertex_face) {
+    if (kind_ == ContactKind::vertex_face) {
       put(1, -far(), -far());
       put(2, far(), -far());
       put(3, near(), far());
@@ -118,7 +119,7 @@ class Scene {
     }
   }
 
-  Kind kind_;
+  ContactKind kind_;
   std::int64_t size_;
   Random& random_;
 };
@@ -139,7 +140,7 @@ struct Notation {
 };
 
 /// The query under a random symmetry without shifts, which keeps decimals decimals.
-Query in_another_order(Kind kind, const Query& query, Random& random) {
+Query in_another_order(ContactKind kind, const Query& query, Random& random) {
   // A distance above 0 excludes symmetries that change distances.
   Symmetry symmetry = draw_symmetry(kind, query, {.distance = 1.0, .norm = Norm::linf}, random);
   symmetry.shifts = {};
@@ -166,7 +167,8 @@ Setting draw_setting(Random& random) {
   return setting;
 }
 
-std::array<Layout, 2> draw_ends(Kind kind, const Setting& setting, bool is_apart, Random& random) {
+std::array<Layout, 2> draw_ends(ContactKind kind, const Setting& setting, bool is_apart,
+                                Random& random) {
   // Layout are sums of up to four draws: the first, two of the shape, and a motion.
   Scene scene(kind, power_of_ten(setting.digits) / 4, random);
   const ContactPlaces contact = scene.draw_contact();
@@ -183,7 +185,7 @@ std::array<Layout, 2> draw_ends(Kind kind, const Setting& setting, bool is_apart
 }
 
 /// \param is_apart True to move the first primitive away by a unit at all times.
-Query draw_query(Kind kind, bool is_apart, Random& random) {
+Query draw_query(ContactKind kind, bool is_apart, Random& random) {
   const Setting setting = draw_setting(random);
   const std::array<Layout, 2> ends = draw_ends(kind, setting, is_apart, random);
   const Notation notation{.places = setting.digits - setting.exponent,
@@ -201,9 +203,11 @@ Query draw_query(Kind kind, bool is_apart, Random& random) {
 
 }  // namespace
 
-Query everyday_contact(Kind kind, Random& random) { return draw_query(kind, false, random); }
+Query everyday_contact(ContactKind kind, Random& random) { return draw_query(kind, false, random); }
 
-Query everyday_near_contact(Kind kind, Random& random) { return draw_query(kind, true, random); }
+Query everyday_near_contact(ContactKind kind, Random& random) {
+  return draw_query(kind, true, random);
+}
 
 Decimal shortest_decimal(double x) {
   std::array<char, 32> text{};

@@ -14,7 +14,7 @@
 
 #include <cstdint>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::generate {
@@ -22,10 +22,10 @@ namespace touchstone::verify::generate {
 /// A query that touches at t=0 or at t=1, and may touch earlier, too. Half of those that share a
 /// point then share it all the time. Coordinates are decimals of at most six digits, or the floats
 /// nearest to them; the greatest is from 1e-4 to 1e4 in magnitude.
-[[nodiscard]] Query everyday_contact(Kind kind, Random& random);
+[[nodiscard]] Query everyday_contact(ContactKind kind, Random& random);
 
 /// The same, but the first primitive is a unit away on one axis.
-[[nodiscard]] Query everyday_near_contact(Kind kind, Random& random);
+[[nodiscard]] Query everyday_near_contact(ContactKind kind, Random& random);
 
 // Decimals as people write them, and the doubles nearest to them.
 

@@ -24,7 +24,7 @@ std::span<const Definition> all_definitions() {
 }
 
 const Definition& find_definition(std::string_view name) {
-  for (const auto list : {all_definitions(), separated_definitions(), element_definitions()}) {
+  for (const auto list : {all_definitions(), separated_definitions(), cell_definitions()}) {
     const auto found = std::ranges::find(
         list, name, [](const Definition& definition) { return definition.family.name; });
     if (found != list.end()) return *found;
@@ -44,7 +44,8 @@ bool is_about_separation(const Definition& definition) {
 }
 
 /// The definition of a family. \throws std::invalid_argument if it has no such queries.
-const Definition& find_definition(const Family& family, Kind kind, const Separation& separation) {
+const Definition& find_definition(const Family& family, AnyKind kind,
+                                  const Separation& separation) {
   if (!supports(family, kind)) {
     throw std::invalid_argument(std::string(family.name) + " has no " +
                                 std::string(to_string(kind)) + " queries");
@@ -64,18 +65,18 @@ std::vector<Family> families_of(std::span<const Definition> definitions) {
 }
 
 /// Every attempt at every query has a separate stream, independent of other queries.
-Random stream_of(std::string_view name, Kind kind, std::uint64_t seed, std::uint64_t index,
+Random stream_of(std::string_view name, AnyKind kind, std::uint64_t seed, std::uint64_t index,
                  std::uint64_t attempt) {
   std::uint64_t state = mix(seed ^ hash(name));
-  state = mix(state + 1 + static_cast<std::uint64_t>(kind));
+  state = mix(state + 1 + std::uint64_t{kind.index()});
   state = mix(state + index);
   return Random(mix(state + attempt));
 }
 
 /// Random significands sometimes end in zeros: a query with full significands that has too many of
 /// those (about one in ten thousand) is drawn again.
-KnownQuery build(const Definition& definition, Kind kind, std::uint64_t seed, std::uint64_t index,
-                 const Separation& separation) {
+KnownQuery build(const Definition& definition, AnyKind kind, std::uint64_t seed,
+                 std::uint64_t index, const Separation& separation) {
   for (std::uint64_t attempt = 0;; ++attempt) {
     Recipe recipe{.kind = kind,
                   .index = index,
@@ -98,7 +99,7 @@ class DrawnSource final : public data::QuerySource {
       : set_(std::move(set)), count_(count), draw_(std::move(draw)) {}
 
   [[nodiscard]] const std::string& name() const override { return set_.name; }
-  [[nodiscard]] QueryShape shape() const override { return set_.shape; }
+  [[nodiscard]] AnyShape shape() const override { return set_.shape; }
   [[nodiscard]] Separation recorded_separation() const override { return set_.separation; }
 
   [[nodiscard]] std::optional<data::RecordedQuery> next() override {
@@ -117,7 +118,7 @@ class DrawnSource final : public data::QuerySource {
   std::uint64_t index_ = 0;
 };
 
-DrawnSet set_of(const Family& family, Kind kind, const Separation& separation) {
+DrawnSet set_of(const Family& family, AnyKind kind, const Separation& separation) {
   return {std::string(family.name), {kind, family.degree, family.is_rational}, separation};
 }
 
@@ -146,8 +147,8 @@ std::span<const Family> separation_families() {
   return all;
 }
 
-std::span<const Family> element_families() {
-  static const std::vector<Family> all = families_of(element_definitions());
+std::span<const Family> cell_families() {
+  static const std::vector<Family> all = families_of(cell_definitions());
   return all;
 }
 
@@ -164,7 +165,7 @@ std::vector<Family> families(const Separation& separation) {
 
 std::vector<Family> families(const Separation& separation, std::span<const std::string> degrees) {
   std::vector<Family> list = families(separation);
-  for (const auto more : {curved_families(), element_families()}) {
+  for (const auto more : {curved_families(), cell_families()}) {
     list.insert(list.end(), more.begin(), more.end());
   }
   std::erase_if(list, [&](const Family& family) {
@@ -182,14 +183,14 @@ const Family& family_from_name(std::string_view name) {
   return curved != nullptr ? *curved : find_definition(name).family;
 }
 
-bool supports(const Family& family, Kind kind) {
-  if (find_curved(family.name) != nullptr) return !is_element(kind);
+bool supports(const Family& family, AnyKind kind) {
+  if (find_curved(family.name) != nullptr) return !kind.is_cell();
   const Definition& definition = find_definition(family.name);
-  if (is_element(kind)) return definition.elements;
-  return kind == Kind::vertex_face ? definition.vertex_face : definition.edge_edge;
+  if (kind.is_cell()) return definition.cells;
+  return kind == ContactKind::vertex_face ? definition.vertex_face : definition.edge_edge;
 }
 
-KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed, std::uint64_t index,
+KnownQuery make_query(const Family& family, AnyKind kind, std::uint64_t seed, std::uint64_t index,
                       const Separation& separation) {
   if (find_curved(family.name) != nullptr) {
     throw std::invalid_argument(std::string(family.name) + " is on curves");
@@ -198,10 +199,12 @@ KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed, std::
   return build(definition, kind, seed, index, separation);
 }
 
-std::unique_ptr<data::QuerySource> open_family(const Family& family, Kind kind, std::uint64_t seed,
-                                               std::uint64_t count, const Separation& separation) {
+std::unique_ptr<data::QuerySource> open_family(const Family& family, AnyKind kind,
+                                               std::uint64_t seed, std::uint64_t count,
+                                               const Separation& separation) {
   if (const Family* const curved = find_curved(family.name)) {
-    return open_drawn(set_of(*curved, kind, {}), count, curved_draws(*curved, kind, seed));
+    return open_drawn(set_of(*curved, kind, {}), count,
+                      curved_draws(*curved, kind.contact(), seed));
   }
   const Definition& definition = find_definition(family, kind, separation);
   const Separation about = is_about_separation(definition) ? separation : Separation{};

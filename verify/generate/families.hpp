@@ -29,8 +29,8 @@
 #include <string_view>
 #include <vector>
 
+#include "touchstone/any_kind.hpp"
 #include "touchstone/number.hpp"
-#include "touchstone/query.hpp"
 #include "verify/data/query_source.hpp"
 
 namespace touchstone::verify::generate {
@@ -65,9 +65,9 @@ struct KnownQuery {
 /// All families about a separation, always in the same order.
 [[nodiscard]] std::span<const Family> separation_families();
 
-/// All families about the inversion of elements, always in the same order; they "collide" as
+/// All families about the inversion of cells, always in the same order; they "collide" as
 /// touchstone/query.hpp says.
-[[nodiscard]] std::span<const Family> element_families();
+[[nodiscard]] std::span<const Family> cell_families();
 
 /// True if those families have queries for this separation: for distances from 2^-1000 to 2^1000.
 [[nodiscard]] bool has_separation_families(const Separation& separation);
@@ -81,7 +81,7 @@ struct KnownQuery {
 [[nodiscard]] std::span<const Family> curved_families();
 
 /// The families whose degree_text is among `degrees`: those for a separation, those on curves,
-/// whose truth refers to distance 0, and those of elements, which are on straight lines.
+/// whose truth refers to distance 0, and those of cells, which are on straight lines.
 [[nodiscard]] std::vector<Family> families(const Separation& separation,
                                            std::span<const std::string> degrees);
 
@@ -94,18 +94,18 @@ struct KnownQuery {
 
 /// True if the family has queries of this kind. Nearly all have both kinds.
 /// \throws std::invalid_argument if no family has the name of `family`.
-[[nodiscard]] bool supports(const Family& family, Kind kind);
+[[nodiscard]] bool supports(const Family& family, AnyKind kind);
 
 /// Query number `index` of a family on straight lines: a function of the arguments alone, the same
 /// on every machine. Families about contact ignore the separation. \throws std::invalid_argument if
 /// the family does not support the kind, is unknown or on curves, or has no queries for the
 /// separation.
-[[nodiscard]] KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed,
+[[nodiscard]] KnownQuery make_query(const Family& family, AnyKind kind, std::uint64_t seed,
                                     std::uint64_t index, const Separation& separation = {});
 
 /// The queries 0 to count−1 of one family and kind as a stream; its name is the family's name.
 /// \throws std::invalid_argument as make_query does, on curves too.
-[[nodiscard]] std::unique_ptr<data::QuerySource> open_family(const Family& family, Kind kind,
+[[nodiscard]] std::unique_ptr<data::QuerySource> open_family(const Family& family, AnyKind kind,
                                                              std::uint64_t seed,
                                                              std::uint64_t count,
                                                              const Separation& separation = {});

@@ -87,8 +87,8 @@ bool uses_full_significands(const Query& query) {
   return exponents.size() > 1 && 2 * static_cast<std::size_t>(full) > magnitudes.size();
 }
 
-void apply_random_symmetry(Kind kind, Random& random, Query& query) {
-  if (is_element(kind)) {
+void apply_random_symmetry(AnyKind kind, Random& random, Query& query) {
+  if (kind.is_cell()) {
     query = image(draw_isometry(kind, random), query).value();
     return;
   }
@@ -96,7 +96,7 @@ void apply_random_symmetry(Kind kind, Random& random, Query& query) {
     swap_axes(query, axis, static_cast<std::size_t>(random.between(static_cast<int>(axis), 2)));
     if (random.coin()) mirror_axis(query, axis);
   }
-  if (kind == Kind::vertex_face) {
+  if (kind == ContactKind::vertex_face) {
     for (std::size_t i = 0; i < 2; ++i) {
       swap_points(query, 1 + i,
                   1 + static_cast<std::size_t>(random.between(static_cast<int>(i), 2)));

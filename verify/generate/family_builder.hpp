@@ -13,8 +13,8 @@
 #include <string>
 
 #include "fast/method.hpp"
+#include "touchstone/any_kind.hpp"
 #include "touchstone/number.hpp"
-#include "touchstone/query.hpp"
 #include "verify/data/query_source.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/random_stream.hpp"
@@ -23,7 +23,7 @@ namespace touchstone::verify::generate {
 
 /// The input of a builder.
 struct Recipe {
-  Kind kind;
+  AnyKind kind;
   /// Number of the query in its family.
   std::uint64_t index;
   /// The number of the query among those with the same `full`, with which builders cycle their
@@ -38,8 +38,10 @@ struct Recipe {
   /// Set by a builder for a query that is printed in the paper: no symmetry is applied.
   bool as_printed = false;
 
+  /// The kind of a family of contacts.
+  [[nodiscard]] ContactKind contact() const { return kind.contact(); }
   /// True for a vertex and a face.
-  [[nodiscard]] bool vertex_face() const { return kind == Kind::vertex_face; }
+  [[nodiscard]] bool vertex_face() const { return kind == ContactKind::vertex_face; }
 };
 
 /// A family with its builder.
@@ -50,7 +52,7 @@ struct Definition {
   /// The kinds it has.
   bool vertex_face = true;
   bool edge_edge = true;
-  bool elements = false;
+  bool cells = false;
 };
 
 /// The definitions in dyadic.cpp, degenerate.cpp and so on, one list for each file.
@@ -67,8 +69,8 @@ struct Definition {
 /// The definitions of the families about a separation, in separated.cpp.
 [[nodiscard]] std::span<const Definition> separated_definitions();
 
-/// The definitions of the families about inversion, in elements.cpp.
-[[nodiscard]] std::span<const Definition> element_definitions();
+/// The definitions of the families about inversion, in cells.cpp.
+[[nodiscard]] std::span<const Definition> cell_definitions();
 
 /// Every definition that does not build on another: all lists but the scaled ones.
 [[nodiscard]] std::span<const Definition> base_definitions();
@@ -76,7 +78,7 @@ struct Definition {
 /// What is common to the queries of a family.
 struct DrawnSet {
   std::string name;
-  QueryShape shape;
+  AnyShape shape;
   Separation separation = {};  ///< of their truth
 };
 
@@ -101,7 +103,7 @@ struct DrawnSet {
 /// Replaces a query by one of its mirror images: axes permuted and mirrored, the face's vertices or
 /// the edges' ends permuted, the two edges exchanged. Verdict and toi do not change, nor the
 /// significand of any coordinate.
-void apply_random_symmetry(Kind kind, Random& random, Query& query);
+void apply_random_symmetry(AnyKind kind, Random& random, Query& query);
 
 /// Multiplies every axis by its own power of two. Verdict and toi do not change, since a diagonal
 /// map of full rank maps F to F; an exponent that would not be exact is replaced by its negative.

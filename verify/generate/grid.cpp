@@ -19,7 +19,7 @@ Integer minor(const Vector& a, const Vector& b, std::size_t i, std::size_t j) {
   return {Integer(a.at(i)) * Integer(b.at(j)) - Integer(a.at(j)) * Integer(b.at(i))};
 }
 
-std::size_t first_of_second(Kind kind) { return kind == Kind::vertex_face ? 1 : 2; }
+std::size_t first_of_second(ContactKind kind) { return kind == ContactKind::vertex_face ? 1 : 2; }
 
 }  // namespace
 
@@ -72,17 +72,17 @@ DyadicTime draw_inner_time(Random& random) {
   return {random.between(1, (std::int64_t{1} << log_denominator) - 1), log_denominator};
 }
 
-Vector Moment::corner(Kind kind, std::size_t corner) const {
+Vector Moment::corner(ContactKind kind, std::size_t corner) const {
   const Corner pair = corners(kind)[corner];
   return position.at(pair.plus) - position.at(pair.minus);
 }
 
-std::array<Vector, 2> Moment::edges(Kind kind) const {
+std::array<Vector, 2> Moment::edges(ContactKind kind) const {
   const Vector w0 = corner(kind, 0);
   return {corner(kind, 1) - w0, corner(kind, corners(kind).size() - 1) - w0};
 }
 
-Vector Moment::relative_velocity(Kind kind) const {
+Vector Moment::relative_velocity(ContactKind kind) const {
   return velocity.front() - velocity.at(first_of_second(kind));
 }
 
@@ -93,11 +93,11 @@ void move_rigidly(Recipe& recipe, const GridSize& size, Moment& moment) {
     second = draw_vector(recipe.random, size.velocity);
   } while (first == second);
   for (std::size_t point = 0; point < moving_points; ++point) {
-    moment.velocity.at(point) = point < first_of_second(recipe.kind) ? first : second;
+    moment.velocity.at(point) = point < first_of_second(recipe.contact()) ? first : second;
   }
 }
 
-void shift_first(Kind kind, const Vector& shift, Moment& moment) {
+void shift_first(ContactKind kind, const Vector& shift, Moment& moment) {
   for (std::size_t point = 0; point < first_of_second(kind); ++point) {
     moment.position.at(point) = moment.position.at(point) + shift;
   }

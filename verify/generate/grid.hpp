@@ -17,8 +17,8 @@
 #include <array>
 #include <cstdint>
 
+#include "touchstone/any_kind.hpp"
 #include "touchstone/number.hpp"
-#include "touchstone/query.hpp"
 #include "verify/generate/family_builder.hpp"
 
 namespace touchstone::verify::generate {
@@ -71,18 +71,18 @@ struct Moment {
   std::array<Vector, moving_points> velocity{};
 
   /// Corner number `corner` at the moment.
-  [[nodiscard]] Vector corner(Kind kind, std::size_t corner) const;
+  [[nodiscard]] Vector corner(ContactKind kind, std::size_t corner) const;
   /// E1 and E2: the polygon's edges from corner 0 at the moment.
-  [[nodiscard]] std::array<Vector, 2> edges(Kind kind) const;
+  [[nodiscard]] std::array<Vector, 2> edges(ContactKind kind) const;
   /// Velocity of the first primitive's first point relative to the second primitive's.
-  [[nodiscard]] Vector relative_velocity(Kind kind) const;
+  [[nodiscard]] Vector relative_velocity(ContactKind kind) const;
 };
 
 /// Gives every point of a primitive one velocity, drawn until the two differ.
 void move_rigidly(Recipe& recipe, const GridSize& size, Moment& moment);
 
 /// Moves the first primitive (the vertex, or the edge a) by `shift` at all times.
-void shift_first(Kind kind, const Vector& shift, Moment& moment);
+void shift_first(ContactKind kind, const Vector& shift, Moment& moment);
 
 /// The query of a moment, each axis multiplied by a random power of two that brings it close to 1.
 [[nodiscard]] Query to_query(Recipe& recipe, const Moment& moment);

@@ -41,12 +41,12 @@ std::array<Number, 3> turned(const std::array<Number, 3>& at) {
 
 class LevelScene {
  public:
-  LevelScene(Order family, Kind kind, int level, bool collides, Random& random)
+  LevelScene(Order family, ContactKind kind, int level, bool collides, Random& random)
       : family_(family), kind_(kind), level_(level), collides_(collides), random_(random) {
     log_size_ = family == Order::far ? log_frame - 3 * level - 1 : log_frame;
     size_ = std::int64_t{1} << log_size_;
     gap_ = family == Order::near ? size_ >> (4 * level) : size_ / 8;
-    if (kind == Kind::vertex_face) {
+    if (kind == ContactKind::vertex_face) {
       place_triangle();
     } else {
       place_edges();
@@ -89,7 +89,7 @@ class LevelScene {
   /// Gives the first primitive its heights. It ends above the plane by `rest`, or below it.
   void let_down(std::int64_t rest) {
     const std::int64_t start = rest < 0 && family_ != Order::near ? -rest : draw(0.4, 0.6);
-    for (std::size_t point = 0; point < (kind_ == Kind::vertex_face ? 1U : 2U); ++point) {
+    for (std::size_t point = 0; point < (kind_ == ContactKind::vertex_face ? 1U : 2U); ++point) {
       points_[0].at(point)[2] = start;
       points_[1].at(point)[2] = rest;
     }
@@ -150,7 +150,7 @@ class LevelScene {
   }
 
   Order family_;
-  Kind kind_;
+  ContactKind kind_;
   int level_;
   bool collides_;
   Random& random_;
@@ -161,7 +161,7 @@ class LevelScene {
   std::array<std::array<Vector, moving_points>, 2> points_{};
 };
 
-Query straight_query(Order family, Kind kind, int level, bool collides, Random& random) {
+Query straight_query(Order family, ContactKind kind, int level, bool collides, Random& random) {
   Query query = LevelScene(family, kind, level, collides, random).query();
   apply_random_symmetry(kind, random, query);
   return query;
@@ -169,7 +169,7 @@ Query straight_query(Order family, Kind kind, int level, bool collides, Random& 
 
 // ---- Curves -------------------------------------------------------------------------------------
 
-base::AnyQuery curved_query(Kind kind, int level, bool collides, Random& random) {
+base::AnyQuery curved_query(ContactKind kind, int level, bool collides, Random& random) {
   const double sign = random.coin() ? 1.0 : -1.0, a = static_cast<double>(random.between(1, 7));
   const double gap = std::ldexp(collides ? -1.0 : 1.0, 2 - 3 * level);
   const std::array<double, 3> square{a * a, -a * (8.0 - a), (8.0 - a) * (8.0 - a)};
@@ -196,13 +196,13 @@ double end_coordinate(double scale, bool two_decimals, Random& random) {
   return static_cast<double>(random.between(-most, most)) / parts;
 }
 
-Query end_query(Kind kind, int level, bool two_decimals, Random& random) {
+Query end_query(ContactKind kind, int level, bool two_decimals, Random& random) {
   constexpr std::array<double, greatest_level> scales{1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2,
                                                       1e3,  1e4,  1e5,  1e6, 1e7, 1e8};
   const double scale = scales.at(static_cast<std::size_t>(level - 1));
   Query query{};
   for (double& x : query.coordinates) x = end_coordinate(scale, two_decimals, random);
-  const bool has_face = kind == Kind::vertex_face;
+  const bool has_face = kind == ContactKind::vertex_face;
   const auto first = static_cast<std::size_t>(has_face ? 0 : random.between(0, 1));
   const auto second =
       static_cast<std::size_t>(has_face ? random.between(1, 3) : random.between(2, 3));
@@ -224,8 +224,8 @@ const LevelFamily& level_family(std::string_view name) {
       fmt::format("no family of growing difficulty is called {} (there are: {})", name, names));
 }
 
-data::QueryGroup level_group(const LevelFamily& family, Kind kind, int level, std::uint64_t seed,
-                             std::uint64_t count) {
+data::QueryGroup level_group(const LevelFamily& family, ContactKind kind, int level,
+                             std::uint64_t seed, std::uint64_t count) {
   const auto number = static_cast<Order>(&family - list.data());
   const bool is_end = number == Order::end || number == Order::decimal_end;
   // The contacts are the same at all scales.
@@ -244,7 +244,7 @@ data::QueryGroup level_group(const LevelFamily& family, Kind kind, int level, st
     }
     return made;
   };
-  const QueryShape shape{.kind = kind, .degree = number == Order::near_on_curves ? 2U : 1U};
+  const AnyShape shape{.kind = kind, .degree = number == Order::near_on_curves ? 2U : 1U};
   data::QueryGroup group(std::string(family.name), shape);
   group.read(
       *open_drawn({group.name(), shape}, count, draw), [](double) {}, [] { return false; });

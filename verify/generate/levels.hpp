@@ -28,7 +28,7 @@
 #include <span>
 #include <string_view>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/data/query_group.hpp"
 
 namespace touchstone::verify::generate {
@@ -51,7 +51,7 @@ struct LevelFamily {
 
 /// Queries of a level: a function of the arguments alone, the same on every machine. The group has
 /// the family's name. \pre 1 ≤ level ≤ greatest_level
-[[nodiscard]] data::QueryGroup level_group(const LevelFamily& family, Kind kind, int level,
+[[nodiscard]] data::QueryGroup level_group(const LevelFamily& family, ContactKind kind, int level,
                                            std::uint64_t seed, std::uint64_t count);
 
 }  // namespace touchstone::verify::generate

@@ -10,7 +10,7 @@
 
 #include <cstdint>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/generate/coordinate_sampler.hpp"
 #include "verify/generate/family_builder.hpp"
 
@@ -31,10 +31,10 @@ inline constexpr Zone left{-3.0, -2.0};
 
 /// Sets x and y of all points such that the projections meet at all times, or (Offset::outside)
 /// that x separates them strictly at all times.
-void draw_plan(Kind kind, Spot spot, Offset offset, Sampler& sampler, Query& query);
+void draw_plan(ContactKind kind, Spot spot, Offset offset, Sampler& sampler, Query& query);
 
 /// Sets z of all points.
-void set_heights(Kind kind, const Line& first, const Line& second, Query& query);
+void set_heights(ContactKind kind, const Line& first, const Line& second, Query& query);
 
 /// The outcome for heights and plan. The heights differ at t=0, or meet there.
 [[nodiscard]] KnownQuery level_outcome(Offset offset, const Line& first, const Line& second,

@@ -65,10 +65,10 @@ Pairs draw_common_root(std::initializer_list<std::size_t> axes, bool by_swap, Sa
 }
 
 /// Triangular corners; p, q, r are drawn anywhere.
-Query triangular(Kind kind, const Pairs& pairs, Sampler& sampler) {
+Query triangular(ContactKind kind, const Pairs& pairs, Sampler& sampler) {
   static constexpr std::array<std::size_t, 4> face_order{0, 1, 2, 3};
   static constexpr std::array<std::size_t, 4> edge_order{2, 0, 1, 3};
-  const auto& order = kind == Kind::vertex_face ? face_order : edge_order;
+  const auto& order = kind == ContactKind::vertex_face ? face_order : edge_order;
   Query query{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < moving_points; ++i) {
@@ -85,7 +85,7 @@ Query triangular(Kind kind, const Pairs& pairs, Sampler& sampler) {
 struct Triangular {
   Rational alpha, p, beta, q, r, gamma;
 
-  Triangular(Kind kind, const Query& query, const Rational& t) {
+  Triangular(ContactKind kind, const Query& query, const Rational& t) {
     const auto all = corners(kind);
     alpha = corner_at(query, all[0], 0, t);
     p = corner_at(query, all[1], 0, t);
@@ -98,9 +98,9 @@ struct Triangular {
 
 /// True if zero is in the polygon (α,0), (p,β), [edge_edge: (p+q−α, β+r),] (q,r). With β and r of
 /// opposite sign the line y = 0 leaves the polygon at (α,0) and at (x,0) on the opposite boundary.
-bool section_contains_zero(Kind kind, const Triangular& w) {
+bool section_contains_zero(ContactKind kind, const Triangular& w) {
   if (w.beta == 0 && w.r == 0) {
-    const Rational far = kind == Kind::edge_edge ? Rational(w.p + w.q - w.alpha) : w.q;
+    const Rational far = kind == ContactKind::edge_edge ? Rational(w.p + w.q - w.alpha) : w.q;
     const Rational low = std::min({w.alpha, w.p, w.q, far});
     const Rational high = std::max({w.alpha, w.p, w.q, far});
     return low <= 0 && high >= 0;
@@ -109,7 +109,7 @@ bool section_contains_zero(Kind kind, const Triangular& w) {
   if (w.r == 0) return w.alpha * w.q <= 0;
   if (sgn(w.beta) == sgn(w.r)) return w.alpha == 0;
   Rational x;
-  if (kind == Kind::vertex_face) {
+  if (kind == ContactKind::vertex_face) {
     x = (w.p * w.r - w.beta * w.q) / (w.r - w.beta);
   } else if (sgn(Rational(w.beta + w.r)) == sgn(w.beta)) {
     x = w.q - w.r / w.beta * (w.p - w.alpha);
@@ -119,14 +119,14 @@ bool section_contains_zero(Kind kind, const Triangular& w) {
   return w.alpha * x <= 0;
 }
 
-bool triangular_contact(Kind kind, const Query& query, const Rational& t) {
+bool triangular_contact(ContactKind kind, const Query& query, const Rational& t) {
   const Triangular w(kind, query, t);
   if (w.gamma == 0) return section_contains_zero(kind, w);
   return w.alpha == 0 || (w.beta == 0 && w.alpha * w.p <= 0);
 }
 
 /// The verdict at each root, earliest first.
-KnownQuery triangular_outcome(Kind kind, const Pairs& pairs, const Query& query) {
+KnownQuery triangular_outcome(ContactKind kind, const Pairs& pairs, const Query& query) {
   std::vector<Rational> roots;
   for (const Pair& pair : pairs) {
     const auto root = meeting_time(pair.base, pair.other);
@@ -141,8 +141,8 @@ KnownQuery triangular_outcome(Kind kind, const Pairs& pairs, const Query& query)
 
 /// Avoiding corners, as far as coordinates are shared: y1 and the z that decide are drawn anywhere.
 /// The points that give α its root are f0 and f1, or eb0; f2 or eb1 gives β its root.
-Query avoiding(Kind kind, const Pairs& pairs, Sampler& sampler) {
-  const bool vertex_face = kind == Kind::vertex_face;
+Query avoiding(ContactKind kind, const Pairs& pairs, Sampler& sampler) {
+  const bool vertex_face = kind == ContactKind::vertex_face;
   const auto meets_x = [&](std::size_t point) { return point == 2 || (vertex_face && point == 1); };
   const Line y1 = sampler.within(1, anywhere);
   Query query{};
@@ -159,7 +159,7 @@ Query avoiding(Kind kind, const Pairs& pairs, Sampler& sampler) {
 }
 
 /// The condition at the top of the file for avoiding corners.
-bool avoids(Kind kind, const Pairs& pairs, const Query& query) {
+bool avoids(ContactKind kind, const Pairs& pairs, const Query& query) {
   const auto all = corners(kind);
   const auto alpha_root = meeting_time(pairs[0].base, pairs[0].other);
   const auto beta_root = meeting_time(pairs[1].base, pairs[1].other);
@@ -173,15 +173,15 @@ bool avoids(Kind kind, const Pairs& pairs, const Query& query) {
   return z != 0 && z == sgn(corner_at(query, all[2], 2, *beta_root));
 }
 
-KnownQuery draw_avoiding(Kind kind, const Pairs& pairs, Sampler& sampler) {
+KnownQuery draw_avoiding(ContactKind kind, const Pairs& pairs, Sampler& sampler) {
   Query query = avoiding(kind, pairs, sampler);
   while (!avoids(kind, pairs, query)) query = avoiding(kind, pairs, sampler);
   return no_collision(query);
 }
 
 KnownQuery from_pairs(Recipe& recipe, const Pairs& pairs, bool is_apart, Sampler& sampler) {
-  if (is_apart) return draw_avoiding(recipe.kind, pairs, sampler);
-  return triangular_outcome(recipe.kind, pairs, triangular(recipe.kind, pairs, sampler));
+  if (is_apart) return draw_avoiding(recipe.contact(), pairs, sampler);
+  return triangular_outcome(recipe.contact(), pairs, triangular(recipe.contact(), pairs, sampler));
 }
 
 /// Triangular corners; β and γ have a root each, α has none.

@@ -28,7 +28,7 @@ Query to_query(const Points& points) {
 
 /// Are the first two coordinates of F zero at the time inside the domain? Nothing if that is so at
 /// no (u,v), or at many.
-std::optional<bool> meet_in_plane(Kind kind, const Query& query, const Rational& t) {
+std::optional<bool> meet_in_plane(ContactKind kind, const Query& query, const Rational& t) {
   const auto all = corners(kind);
   std::array<Rational, 2> w0, along_u, along_v;
   for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -41,7 +41,7 @@ std::optional<bool> meet_in_plane(Kind kind, const Query& query, const Rational&
   const Rational u = (along_v[0] * w0[1] - along_v[1] * w0[0]) / area,
                  v = (along_u[1] * w0[0] - along_u[0] * w0[1]) / area;
   if (u < 0 || v < 0) return false;
-  return kind == Kind::vertex_face ? u + v <= 1 : u <= 1 && v <= 1;
+  return kind == ContactKind::vertex_face ? u + v <= 1 : u <= 1 && v <= 1;
 }
 
 constexpr Points printed_hourglass{{{0.1, 0.1, 0.1},
@@ -75,7 +75,7 @@ Query draw_hourglass(Recipe& recipe) {
   }
   const Line first = sampler.within(2, centre);
   const Line second = sampler.from_to(2, right, left);
-  set_heights(recipe.kind, first, second, query);
+  set_heights(recipe.contact(), first, second, query);
   return query;
 }
 
@@ -91,7 +91,7 @@ KnownQuery hourglass(Recipe& recipe) {
   while (!meets) {
     query = recipe.as_printed ? to_query(printed_hourglass) : draw_hourglass(recipe);
     toi = *meeting_time(line_of(query, 0, 2), line_of(query, first_of_second, 2));
-    meets = meet_in_plane(recipe.kind, query, toi);
+    meets = meet_in_plane(recipe.contact(), query, toi);
   }
   return *meets ? collision(query, toi) : no_collision(query);
 }

@@ -63,10 +63,10 @@ KnownQuery extreme_range(Recipe& recipe) {
   const double huge = recipe.full ? 0x1p1022 * (1.2 + 0.13 * recipe.random.unit()) : 0x1p1022;
   Sampler sampler(recipe, {tiny, huge, huge});
   Query query{};
-  draw_plan(recipe.kind, spot, offset, sampler, query);
+  draw_plan(recipe.contact(), spot, offset, sampler, query);
   const Line first = sampler.from_to(2, {-3.0, -1.0}, {1.0, 3.0});
   const Line second = recipe.full ? sampler.within(2, centre) : Line{0x1p-1074, -0x1p-1074};
-  set_heights(recipe.kind, first, second, query);
+  set_heights(recipe.contact(), first, second, query);
   return level_outcome(offset, first, second, query);
 }
 

@@ -100,11 +100,11 @@ KnownQuery level(Recipe& recipe, const Line& height) {
   static constexpr std::array<Spot, 3> spots{Spot::interior, Spot::edge, Spot::corner};
   Query query{};
   Sampler scene = draw_scene(recipe);
-  draw_plan(recipe.kind, spots.at(recipe.variant % spots.size()), Offset::none, scene, query);
+  draw_plan(recipe.contact(), spots.at(recipe.variant % spots.size()), Offset::none, scene, query);
   const Split split = draw_one(recipe.random, splits);
   const Line first{split.of_first(height.start), split.of_first(height.end)};
   const Line second{split.of_second(height.start), split.of_second(height.end)};
-  set_heights(recipe.kind, first, second, query);
+  set_heights(recipe.contact(), first, second, query);
   const Offset3 offset{.start = {0, 0, Rational(height.start)},
                        .end = {0, 0, Rational(height.end)}};
   return outcome(query, arrival(offset, recipe.separation));
@@ -216,12 +216,12 @@ Nearest draw_nearest(Recipe& recipe, Vector3 offset) {
 /// Whole primitives, or primitives that are shrunk to points and segments.
 enum class Shape : std::uint8_t { whole, degenerate };
 
-bool belongs_to_first(Kind kind, std::size_t point) {
-  return point < (kind == Kind::vertex_face ? 1U : 2U);
+bool belongs_to_first(ContactKind kind, std::size_t point) {
+  return point < (kind == ContactKind::vertex_face ? 1U : 2U);
 }
 
 /// The nearest point of its primitive, farther from the other one by some length ≥ 0.
-Line draw_farther(Kind kind, std::size_t point, std::size_t axis, const Nearest& nearest,
+Line draw_farther(ContactKind kind, std::size_t point, std::size_t axis, const Nearest& nearest,
                   Sampler& scene) {
   static constexpr Zone away{0.0, 3.0};
   const double start = scene.draw(axis, away), end = scene.draw(axis, away);
@@ -233,7 +233,7 @@ Line draw_farther(Kind kind, std::size_t point, std::size_t axis, const Nearest&
   return {base.start - start, base.end - end};
 }
 
-void set_nearest(Kind kind, std::size_t point, std::size_t axis, const Nearest& nearest,
+void set_nearest(ContactKind kind, std::size_t point, std::size_t axis, const Nearest& nearest,
                  Query& query) {
   set(query, point, axis,
       belongs_to_first(kind, point) ? nearest.first(axis) : nearest.second(axis));
@@ -249,9 +249,9 @@ KnownQuery corner_to_corner(Recipe& recipe, Shape shape) {
     const bool is_nearest = point == 0 || point == second || shape == Shape::degenerate;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (is_nearest) {
-        set_nearest(recipe.kind, point, axis, nearest, query);
+        set_nearest(recipe.contact(), point, axis, nearest, query);
       } else {
-        set(query, point, axis, draw_farther(recipe.kind, point, axis, nearest, scene));
+        set(query, point, axis, draw_farther(recipe.contact(), point, axis, nearest, scene));
       }
     }
   }
@@ -282,9 +282,9 @@ KnownQuery side(Recipe& recipe, Shape shape) {
   for (std::size_t point = 0; point < moving_points; ++point) {
     for (std::size_t axis = 1; axis < 3; ++axis) {
       if (point != other || parallel || shape == Shape::degenerate) {
-        set_nearest(recipe.kind, point, axis, nearest, query);
+        set_nearest(recipe.contact(), point, axis, nearest, query);
       } else {
-        set(query, point, axis, draw_farther(recipe.kind, point, axis, nearest, scene));
+        set(query, point, axis, draw_farther(recipe.contact(), point, axis, nearest, scene));
       }
     }
   }
@@ -341,13 +341,13 @@ struct Ranges {
   Range h;
 };
 
-const std::array<Ranges, moving_points>& ranges_of(Kind kind) {
+const std::array<Ranges, moving_points>& ranges_of(ContactKind kind) {
   static constexpr Range zero{0, 0};
   static constexpr std::array<Ranges, moving_points> face{
       {{zero, zero}, {far_below, far_below}, {far_above, far_below}, {near_zero, far_above}}};
   static constexpr std::array<Ranges, moving_points> edges{
       {{far_below, zero}, {far_above, zero}, {zero, far_below}, {zero, far_above}}};
-  return kind == Kind::vertex_face ? face : edges;
+  return kind == ContactKind::vertex_face ? face : edges;
 }
 
 /// The grid: the unit s of the construction is `unit` · 2^exponent.
@@ -392,10 +392,10 @@ KnownQuery tilted(Recipe& recipe) {
     IntegerVector translation{};
     if (translated) std::ranges::generate(translation, [&] { return draw_translation(recipe); });
     for (std::size_t point = 0; point < moving_points; ++point) {
-      const auto [g_range, h_range] = ranges_of(recipe.kind).at(point);
+      const auto [g_range, h_range] = ranges_of(recipe.contact()).at(point);
       const Place2 place{random.between(g_range.low, g_range.high),
                          random.between(h_range.low, h_range.high)};
-      const std::int64_t height = belongs_to_first(recipe.kind, point) ? lambda : 0;
+      const std::int64_t height = belongs_to_first(recipe.contact(), point) ? lambda : 0;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::int64_t multiple =
             height * plane.n.at(axis) + place.g * plane.g.at(axis) + place.h * plane.h.at(axis);

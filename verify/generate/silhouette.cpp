@@ -25,10 +25,10 @@ KnownQuery crossing(Recipe& recipe, Spot spot) {
   Sampler sampler(recipe);
   const Offset offset = offset_of(recipe.variant);
   Query query{};
-  draw_plan(recipe.kind, spot, offset, sampler, query);
+  draw_plan(recipe.contact(), spot, offset, sampler, query);
   const Line first = sampler.from_to(2, below, above);
   const Line second = sampler.within(2, centre);
-  set_heights(recipe.kind, first, second, query);
+  set_heights(recipe.contact(), first, second, query);
   return level_outcome(offset, first, second, query);
 }
 
@@ -42,11 +42,11 @@ KnownQuery end_approached(Recipe& recipe) {
   static constexpr std::array<Spot, 3> spots{Spot::interior, Spot::edge, Spot::corner};
   Sampler sampler(recipe);
   Query query{};
-  draw_plan(recipe.kind, spots.at(recipe.variant / 3 % 3), Offset::none, sampler, query);
+  draw_plan(recipe.contact(), spots.at(recipe.variant / 3 % 3), Offset::none, sampler, query);
   const Line second = sampler.within(2, centre);
   const int steps = static_cast<int>(recipe.variant % 3) - 1;
   const Line first{sampler.draw(2, below), sampler.nudged(second.end, steps)};
-  set_heights(recipe.kind, first, second, query);
+  set_heights(recipe.contact(), first, second, query);
   return level_outcome(Offset::none, first, second, query);
 }
 
@@ -71,7 +71,7 @@ KnownQuery needle_triangle(Recipe& recipe) {
   set(query, 3, 1, sampler.within(1, {-0.25, 0.25}));
   const Line first = sampler.from_to(2, below, above);
   const Line second = sampler.within(2, centre);
-  set_heights(recipe.kind, first, second, query);
+  set_heights(recipe.contact(), first, second, query);
   if (steps == -1 || steps == 9) return no_collision(query);
   return level_outcome(Offset::none, first, second, query);
 }

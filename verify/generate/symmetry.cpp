@@ -56,12 +56,12 @@ double sign_of(const Symmetry& symmetry) {
   return sign;
 }
 
-void renumber(Kind kind, Random& random, Symmetry& symmetry) {
-  if (is_element(kind)) {
-    shuffle(symmetry.points, 0, kind == Kind::tetrahedron ? 4 : 3, random);
+void renumber(AnyKind kind, Random& random, Symmetry& symmetry) {
+  if (kind.is_cell()) {
+    shuffle(symmetry.points, 0, kind == CellKind::tetrahedron ? 4 : 3, random);
     return;
   }
-  if (kind == Kind::vertex_face) {
+  if (kind == ContactKind::vertex_face) {
     shuffle(symmetry.points, 1, moving_points, random);
     return;
   }
@@ -83,7 +83,7 @@ void multiply(Random& random, Symmetry& symmetry) {
 
 /// Shifts by a vector that brings some coordinate to 0, or by a power of two of similar size: then
 /// sums are sometimes exact.
-void shift(const Queries& query, Random& random, Symmetry& symmetry) {
+void shift(const AnyQueries& query, Random& random, Symmetry& symmetry) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (random.coin()) continue;
     const std::size_t control = draws::below(random, query.degree + 1);
@@ -97,7 +97,7 @@ void shift(const Queries& query, Random& random, Symmetry& symmetry) {
 }
 
 /// False if some coordinate would not be exact.
-bool write_image(const Symmetry& symmetry, const Queries& query, std::span<double> result) {
+bool write_image(const Symmetry& symmetry, const AnyQueries& query, std::span<double> result) {
   const std::size_t size = query.numbers_of_point();
   for (std::size_t control = 0; control <= query.degree; ++control) {
     const std::size_t from = moving_points * control;
@@ -123,34 +123,34 @@ bool write_image(const Symmetry& symmetry, const Queries& query, std::span<doubl
 
 std::optional<Query> image(const Symmetry& symmetry, const Query& query) {
   Query result{};
-  const Queries one(Kind::vertex_face, {&query, 1});
+  const AnyQueries one(ContactKind::vertex_face, {&query, 1});
   if (!write_image(symmetry, one, result.coordinates)) return std::nullopt;
   return result;
 }
 
-std::optional<std::vector<double>> image(const Symmetry& symmetry, const Queries& query) {
+std::optional<std::vector<double>> image(const Symmetry& symmetry, const AnyQueries& query) {
   std::vector<double> result(query.numbers.size());
   if (!write_image(symmetry, query, result)) return std::nullopt;
   return result;
 }
 
-Symmetry draw_symmetry(Kind kind, const Query& query, const Separation& separation,
+Symmetry draw_symmetry(AnyKind kind, const Query& query, const Separation& separation,
                        Random& random) {
-  return draw_symmetry(Queries(kind, {&query, 1}), separation, random);
+  return draw_symmetry(AnyQueries(kind, {&query, 1}), separation, random);
 }
 
-Symmetry draw_isometry(Kind kind, Random& random) {
-  const bool is_plane = kind == Kind::plane_triangle;
+Symmetry draw_isometry(AnyKind kind, Random& random) {
+  const bool is_plane = kind == CellKind::plane_triangle;
   Symmetry symmetry;
   if (random.coin()) renumber(kind, random, symmetry);
   if (random.coin()) shuffle(symmetry.axes, 0, is_plane ? 2 : 3, random);
   for (double& factor : symmetry.factors) factor = random.coin() ? 1.0 : -1.0;
   if (is_plane) symmetry.factors[2] = 1.0;
-  if (is_element(kind)) symmetry.factors[0] *= sign_of(symmetry);
+  if (kind.is_cell()) symmetry.factors[0] *= sign_of(symmetry);
   return symmetry;
 }
 
-Symmetry draw_symmetry(const Queries& query, const Separation& separation, Random& random) {
+Symmetry draw_symmetry(const AnyQueries& query, const Separation& separation, Random& random) {
   Symmetry symmetry = draw_isometry(query.kind, random);
   symmetry.reversed = draws::one_in(random, 4);
   const Symmetry isometry = symmetry;

@@ -5,7 +5,7 @@
 ///
 /// - The points of a primitive may be renumbered, edges exchanged: the same sets of points.
 /// - Axes may be permuted and mirrored: an isometry in both norms, without a rounding.
-/// - An element's points and axes may be, if its volume keeps its sign: an even number of exchanges
+/// - A cell's points and axes may be, if its volume keeps its sign: an even number of exchanges
 ///   and mirrors; of a triangle in the plane its three points, and the first two axes.
 /// - Each axis may be multiplied by a power of two without rounding: a linear map of full rank maps
 ///   roots of F to roots. It changes distances, so it needs separation 0.
@@ -20,7 +20,7 @@
 #include <optional>
 #include <vector>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::generate {
@@ -41,16 +41,16 @@ struct Symmetry {
 [[nodiscard]] std::optional<Query> image(const Symmetry& symmetry, const Query& query);
 /// The numbers of the image of one query of any shape; empty as above.
 [[nodiscard]] std::optional<std::vector<double>> image(const Symmetry& symmetry,
-                                                       const Queries& query);
+                                                       const AnyQueries& query);
 
 /// A random renumbering of the points, and permutation and mirroring of axes.
-[[nodiscard]] Symmetry draw_isometry(Kind kind, Random& random);
+[[nodiscard]] Symmetry draw_isometry(AnyKind kind, Random& random);
 
 /// A random symmetry with an exact image of this query, one of any shape. Without powers of two if
 /// there is a separation.
-[[nodiscard]] Symmetry draw_symmetry(const Queries& query, const Separation& separation,
+[[nodiscard]] Symmetry draw_symmetry(const AnyQueries& query, const Separation& separation,
                                      Random& random);
-[[nodiscard]] Symmetry draw_symmetry(Kind kind, const Query& query, const Separation& separation,
+[[nodiscard]] Symmetry draw_symmetry(AnyKind kind, const Query& query, const Separation& separation,
                                      Random& random);
 
 }  // namespace touchstone::verify::generate

@@ -103,7 +103,7 @@ KnownQuery tangential(Recipe& recipe) {
   const std::int64_t epsilon = variant == 1 ? bend : -bend;
   if (variant != 0) {
     // Edge b is the second primitive: moving edge a by −ε is moving edge b by ε.
-    shift_first(recipe.kind, {0, 0, recipe.vertex_face() ? epsilon : -epsilon}, moment);
+    shift_first(recipe.contact(), {0, 0, recipe.vertex_face() ? epsilon : -epsilon}, moment);
   }
   const Query query = to_query(recipe, moment);
   if (variant == 2) return no_collision(query);

@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "fast/method.hpp"
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
 #include "verify/judge/judgement.hpp"
@@ -60,7 +60,7 @@ struct SingleTimes {
 /// A solver under some settings on a group.
 struct BenchRow {
   std::string source;  ///< the name of the group
-  Kind kind = Kind::vertex_face;
+  AnyKind kind = ContactKind::vertex_face;
   /// Of a family of growing difficulty; nothing for others.
   std::optional<int> level = std::nullopt;
   std::string method;

@@ -12,6 +12,7 @@
 
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/oracle.hpp"
+#include "verify/base/any_decision.hpp"
 #include "verify/base/cores.hpp"
 #include "verify/base/thread_clock.hpp"
 #include "verify/io/terminal.hpp"
@@ -99,14 +100,17 @@ class Block {
     }
   };
 
-  [[nodiscard]] Queries queries() const { return {shape_, numbers_}; }
+  [[nodiscard]] AnyQueries queries() const { return {shape_, numbers_}; }
   [[nodiscard]] bool is_stopped() const { return base::is_stopped(options_.stop); }
 
   // ---- Truth
 
   void decide() {
     const double start = base::thread_nanoseconds();
-    const std::vector<exact::Decision> decisions = exact::decide(queries(), options_.separation);
+    std::vector<exact::Decision> decisions;
+    for (std::size_t i = 0; i < size(); ++i) {
+      decisions.push_back(base::decide(queries(), i, options_.separation));
+    }
     nanoseconds_ = base::thread_nanoseconds() - start;
     const bool has_times = options_.on_truth || !options_.solvers.empty();
     for (std::size_t i = 0; i < decisions.size(); ++i) {
@@ -128,7 +132,7 @@ class Block {
       const std::string label = certificate_label(source_, indices_[i]);
       try {
         const exact::Certificate certificate =
-            exact::prove(queries(), i, decisions[i], options_.proof);
+            base::prove(queries(), i, decisions[i], options_.proof);
         exact::write(certificates_, certificate, label);
         proofs_.add(certificate);
       } catch (const exact::CertificateLimitError& error) {
@@ -224,7 +228,7 @@ class Block {
   }
 
   const std::string& source_;
-  QueryShape shape_;
+  AnyShape shape_;
   const CertifyOptions& options_;
   const judge::LabelComparison& comparison_;
   std::vector<double> numbers_;

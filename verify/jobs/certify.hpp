@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "fast/method.hpp"
+#include "touchstone/any_kind.hpp"
 #include "touchstone/number.hpp"
-#include "touchstone/query.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/data/query_source.hpp"
 #include "verify/jobs/prove.hpp"
@@ -88,7 +88,7 @@ struct CertifyResult {
   Separation separation = {};  ///< the distance that counted as contact; not set in a total
   /// The recorded claims that were compared; not set in a total.
   judge::Inference compared = judge::Inference::all;
-  std::optional<QueryShape> shape;  ///< empty for a total, and for a source that was not opened
+  std::optional<AnyShape> shape;  ///< empty for a total, and for a source that was not opened
   std::uint64_t queries = 0;
   std::uint64_t collisions = 0;  ///< of these, by the truth
   std::uint64_t labels = 0;      ///< queries with a recorded verdict that is compared

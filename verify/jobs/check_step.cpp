@@ -33,7 +33,7 @@ void require_few(const PairCounts& candidates, std::uint64_t most) {
                            "--free says whether there are any");
 }
 
-/// The earliest impact of all pairs that collide and elements that invert, as from
+/// The earliest impact of all pairs that collide and cells that invert, as from
 /// fast::Step::earliest.
 std::optional<fast::StepImpact> earliest_of(const std::vector<fast::StepCollision>& collisions,
                                             const std::vector<fast::StepInversion>& inversions) {

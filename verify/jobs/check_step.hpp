@@ -23,7 +23,7 @@ namespace touchstone::verify::jobs {
 
 /// The question about a step.
 enum class StepQuestion : std::uint8_t {
-  all,       ///< every pair that collides, and every element that inverts
+  all,       ///< every pair that collides, and every cell that inverts
   earliest,  ///< the earliest impact and the pairs that realise it
   free,      ///< only whether there is one
 };
@@ -45,9 +45,9 @@ struct StepCheckOptions {
   exact::SceneProofOptions proof = {};
 };
 
-/// The kinds of pairs, in the order of fast::PairKind.
-inline constexpr std::array pair_kinds{fast::PairKind::vertex_face, fast::PairKind::edge_edge,
-                                       fast::PairKind::vertex_edge, fast::PairKind::vertex_vertex};
+/// The kinds of pairs, in the order of ContactKind.
+inline constexpr std::array pair_kinds{ContactKind::vertex_face, ContactKind::edge_edge,
+                                       ContactKind::vertex_edge, ContactKind::vertex_vertex};
 
 /// Numbers of pairs of each kind, in that order.
 using PairCounts = std::array<std::uint64_t, pair_kinds.size()>;
@@ -60,7 +60,7 @@ struct StepCheck {
   std::optional<fast::StepImpact> earliest;
   /// The pairs that collide, if the question was `all`; by kinds, then by numbers.
   std::optional<std::vector<fast::StepCollision>> collisions;
-  /// The elements that invert, if the question was `all`.
+  /// The cells that invert, if the question was `all`.
   std::optional<std::vector<fast::StepInversion>> inversions = {};
   /// The contacts of `collisions`, or of the pairs of `earliest` if the question was that, if they
   /// were asked for; in their order, which is by kinds, then by numbers.

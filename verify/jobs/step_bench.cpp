@@ -64,8 +64,8 @@ class StepMeasurement {
       }
     }
     result.interrupted = stopped();
-    result.vertex_face = counts(fast::PairKind::vertex_face);
-    result.edge_edge = counts(fast::PairKind::edge_edge);
+    result.vertex_face = counts(ContactKind::vertex_face);
+    result.edge_edge = counts(ContactKind::edge_edge);
     result.earliest = earliest_;
     result.memory_pass = memory_pass_.median();
     for (const Series& series : series_) {
@@ -126,9 +126,9 @@ class StepMeasurement {
     });
   }
 
-  static std::size_t index_of(fast::PairKind kind) { return static_cast<std::size_t>(kind); }
+  static std::size_t index_of(ContactKind kind) { return static_cast<std::size_t>(kind); }
 
-  [[nodiscard]] StepCounts counts(fast::PairKind kind) const {
+  [[nodiscard]] StepCounts counts(ContactKind kind) const {
     return {.candidates = candidates_.at(index_of(kind)),
             .collisions = static_cast<std::size_t>(
                 std::ranges::count(collisions_, kind, &fast::StepCollision::kind))};

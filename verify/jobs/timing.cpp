@@ -33,7 +33,7 @@ double nanoseconds_since(WallClock::time_point start) {
 }  // namespace
 
 std::shared_ptr<const Sample> sample_of(const data::QueryGroup& group, std::size_t count) {
-  const Queries all = group.queries();
+  const AnyQueries all = group.queries();
   const auto sample = std::make_shared<Sample>();
   sample->positions = spread_sample(all.size(), count);
   sample->queries = all;
@@ -144,11 +144,11 @@ judge::Judgement TimedSolver::judge(std::span<const judge::GroundTruth> truths) 
   return judgement;
 }
 
-bool takes_curves(const fast::Terms& terms, QueryShape shape) {
-  const bool of_elements = is_element(shape.kind);
-  return std::ranges::any_of(all_kinds, [&](Kind kind) {
+bool takes_curves(const fast::Terms& terms, AnyShape shape) {
+  const bool of_cells = shape.kind.is_cell();
+  return std::ranges::any_of(all_kinds, [&](AnyKind kind) {
     shape.kind = kind;
-    return is_element(kind) == of_elements && terms.answers(shape);
+    return kind.is_cell() == of_cells && terms.answers(shape);
   });
 }
 

@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "fast/method.hpp"
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/base/thread_clock.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/judge/judgement.hpp"
@@ -36,7 +36,7 @@ struct Sample {
   std::vector<std::size_t> positions;
   /// Copies of the queries there, if these are not all.
   std::vector<double> copies;
-  Queries queries;
+  AnyQueries queries;
 };
 
 /// The sample of this number of queries of a group, or of all there are. It is valid as long as the
@@ -76,7 +76,7 @@ class TimedSolver {
 
   [[nodiscard]] const solvers::Solver& solver() const { return *solver_; }
   [[nodiscard]] const std::shared_ptr<const Sample>& sample() const { return sample_; }
-  [[nodiscard]] const Queries& queries() const { return sample_->queries; }
+  [[nodiscard]] const AnyQueries& queries() const { return sample_->queries; }
   /// The positions of the sample in the group, ascending.
   [[nodiscard]] const std::vector<std::size_t>& positions() const { return sample_->positions; }
   /// The answers of the latest call, query by query.
@@ -112,7 +112,7 @@ class TimedSolver {
 
 /// True if a solver with these terms takes such curves, in queries of whatever kind; no other is
 /// timed on them.
-[[nodiscard]] bool takes_curves(const fast::Terms& terms, QueryShape shape);
+[[nodiscard]] bool takes_curves(const fast::Terms& terms, AnyShape shape);
 
 /// The number of times that work of this duration is to be done between two readings of the clock,
 /// so that the clock's own cost does not show.

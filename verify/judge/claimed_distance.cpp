@@ -29,11 +29,11 @@ std::array<double, 3> greatest_coordinates(const Query& query) {
 double weight(double x) { return std::clamp((x + 1.0) - 1.0, 0.0, 1.0); }
 
 /// F on one axis, up to the filter. \pre all are weights, and u + v ≤ 1 if need be.
-double value_on_axis(Kind kind, const Query& query, std::size_t axis, double t, double u,
+double value_on_axis(ContactKind kind, const Query& query, std::size_t axis, double t, double u,
                      double v) {
   std::array<double, query_points> x{};
   for (std::size_t i = 0; i < x.size(); ++i) x.at(i) = query.coordinates.at(3 * i + axis);
-  if (kind == Kind::vertex_face) {
+  if (kind == ContactKind::vertex_face) {
     return filters::VertexFace::evaluate<double>(x, {1.0 - t, t, 1.0 - u - v, u, v});
   }
   return filters::EdgeEdge::evaluate<double>(x, {1.0 - t, t, 1.0 - u, u, 1.0 - v, v});
@@ -46,8 +46,9 @@ Separation stated_distance(const fast::Answer& answer, const Separation& separat
   return {.distance = is_exact ? sum : up(sum), .norm = separation.norm};
 }
 
-Separation tight_inclusion_distance(Kind kind, const Query& query, const fast::Answer& answer,
-                                    double separation, fast::ErrorFilter filter) {
+Separation tight_inclusion_distance(ContactKind kind, const Query& query,
+                                    const fast::Answer& answer, double separation,
+                                    fast::ErrorFilter filter) {
   const std::array<double, 3> x_max = greatest_coordinates(query);
   if (std::max(std::ranges::max(x_max), separation) > greatest_unscaled) {
     return {.distance = infinity, .norm = Norm::linf};
@@ -59,14 +60,14 @@ Separation tight_inclusion_distance(Kind kind, const Query& query, const fast::A
 
 }  // namespace
 
-Separation claimed_distance(fast::ErrorFilter filter, Kind kind, const Query& query,
+Separation claimed_distance(fast::ErrorFilter filter, ContactKind kind, const Query& query,
                             const fast::Answer& answer, const Separation& separation) {
   if (std::isnan(answer.tolerance)) return {.distance = infinity, .norm = separation.norm};
   if (filter == nullptr) return stated_distance(answer, separation);
   return tight_inclusion_distance(kind, query, answer, separation.distance, filter);
 }
 
-bool is_seen_within(Kind kind, const Query& query, double t, double distance) {
+bool is_seen_within(ContactKind kind, const Query& query, double t, double distance) {
   if (!(t >= 0.0 && t <= 1.0)) return false;
   const std::array<double, 3> x_max = greatest_coordinates(query);
   if (std::ranges::max(x_max) > greatest_unscaled) return false;
@@ -74,7 +75,7 @@ bool is_seen_within(Kind kind, const Query& query, double t, double distance) {
   const double time = weight(t);
   const auto is_within = [&](Norm norm) {
     const auto nearest = fast::exact_stage::nearest_parameters(kind, query, time, norm);
-    const double u = weight(nearest.u), free = kind == Kind::vertex_face ? 1.0 - u : 1.0;
+    const double u = weight(nearest.u), free = kind == ContactKind::vertex_face ? 1.0 - u : 1.0;
     const double v = std::min(weight(nearest.v), free);
     const auto is_within_on = [&](std::size_t axis) {
       const double value = std::abs(value_on_axis(kind, query, axis, time, u, v));

@@ -16,7 +16,7 @@
 /// difference of two values, hence one spacing more than τ.
 
 #include "fast/method.hpp"
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "touchstone/tight_inclusion.hpp"
 
 namespace touchstone::verify::judge {
@@ -27,11 +27,12 @@ namespace touchstone::verify::judge {
 /// scales down first.
 /// \param filter that the method's tolerances do not include (fast::MethodInfo::filter), or null
 /// \param separation the requested one
-[[nodiscard]] Separation claimed_distance(fast::ErrorFilter filter, Kind kind, const Query& query,
-                                          const fast::Answer& answer, const Separation& separation);
+[[nodiscard]] Separation claimed_distance(fast::ErrorFilter filter, ContactKind kind,
+                                          const Query& query, const fast::Answer& answer,
+                                          const Separation& separation);
 
 /// True if a quick test, in floating point with proved bounds, shows that the primitives are within
 /// the distance in L∞ at time t. False is no information.
-[[nodiscard]] bool is_seen_within(Kind kind, const Query& query, double t, double distance);
+[[nodiscard]] bool is_seen_within(ContactKind kind, const Query& query, double t, double distance);
 
 }  // namespace touchstone::verify::judge

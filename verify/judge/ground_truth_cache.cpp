@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "verify/base/any_decision.hpp"
 #include "verify/base/cores.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/judge/ground_truth.hpp"
@@ -35,7 +36,7 @@ GroundTruthCache::Known& GroundTruthCache::known_at(const Separation& separation
 void GroundTruthCache::decide(const Separation& separation, std::span<const std::size_t> positions,
                               Known& known, const std::atomic<bool>* stop,
                               const std::function<void(double)>& on_progress) {
-  const Queries queries = group_.queries();
+  const AnyQueries queries = group_.queries();
   if (!positions.empty() && positions.back() >= queries.size()) {
     throw std::out_of_range("a position beyond the group");
   }
@@ -49,7 +50,7 @@ void GroundTruthCache::decide(const Separation& separation, std::span<const std:
         // The hardest take a quarter of a second each.
         if (base::is_stopped(stop)) return;
         const std::size_t position = positions[first + i];
-        found[i] = truth_of(position, exact::decide(queries, position, separation));
+        found[i] = truth_of(position, base::decide(queries, position, separation));
       });
     });
     for (std::size_t i = 0; i < count; ++i) {

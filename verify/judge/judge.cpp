@@ -13,7 +13,7 @@ namespace touchstone::verify::judge {
 namespace {
 
 bool is_beyond(const Question& question, const fast::Answer& answer, const Separation& claimed) {
-  const Kind kind = question.query.kind;
+  const ContactKind kind = question.query.kind.contact();
   const Query& query = question.query.straight().front();
   const bool is_seen =
       claimed.norm == Norm::linf && is_seen_within(kind, query, answer.toi_lower, claimed.distance);
@@ -105,11 +105,11 @@ bool is_slight(Fault fault, const std::optional<Lateness>& lateness) {
 
 std::optional<Separation> claim_of(const Question& question, const fast::Answer& answer,
                                    const Standard& standard) {
-  const bool has_distance = question.query.is_straight() && !is_element(question.query.kind);
+  const bool has_distance = question.query.is_straight() && !question.query.kind.is_cell();
   if (answer.verdict != fast::Verdict::yes || !has_distance) return std::nullopt;
   const Separation claimed =
-      claimed_distance(standard.filter, question.query.kind, question.query.straight().front(),
-                       answer, question.separation);
+      claimed_distance(standard.filter, question.query.kind.contact(),
+                       question.query.straight().front(), answer, question.separation);
   return is_valid(claimed) ? std::optional(claimed) : std::nullopt;
 }
 

@@ -15,16 +15,15 @@
 ///   comparisons are exact: the truth is enclosed by neighbouring doubles, or is one, so a double t
 ///   is above it iff t > lower, and below it iff t < upper.
 /// - The tolerance is judged for a yes to a query on straight lines that does not collide: a
-///   colliding pair satisfies any claimed distance. An element has no distance.
-/// - An element that inverts collides, and the first time at which its volume is not positive is
-/// its
+///   colliding pair satisfies any claimed distance. A cell has no distance.
+/// - A cell that inverts collides, and the first time at which its volume is not positive is its
 ///   time of impact.
 
 #include <optional>
 #include <vector>
 
 #include "fast/method.hpp"
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/judge/ground_truth.hpp"
 
@@ -32,7 +31,7 @@ namespace touchstone::verify::judge {
 
 /// A query as it was asked.
 struct Question {
-  Queries query;  ///< one
+  AnyQueries query;  ///< one
   Separation separation = {};
 };
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "verify/base/any_decision.hpp"
 #include "verify/io/json.hpp"
 #include "verify/judge/terms.hpp"
 
@@ -133,7 +134,7 @@ void Judgement::add(const Question& question, const GroundTruth& known, const fa
   const base::AnyQuery asked = as_asked(standard.terms, {query, 0});
   const bool is_rounded = !std::ranges::equal(asked.numbers(), query.numbers);
   const GroundTruth truth =
-      is_rounded ? truth_of(known.index, exact::decide(asked.queries(), 0, separation)) : known;
+      is_rounded ? truth_of(known.index, base::decide(asked.queries(), 0, separation)) : known;
   ++queries;
   collisions += truth.collides ? 1U : 0U;
   const auto why = failure != nullptr ? std::optional(*failure) : failure_of(answer);

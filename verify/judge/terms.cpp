@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "touchstone/certified.hpp"
+#include "verify/base/any_decision.hpp"
 
 namespace touchstone::verify::judge {
 namespace {
@@ -21,21 +22,24 @@ double nearest_float(double x) {
 }
 
 /// The distance at t=0, where each point is its first control point, is that at all times of a
-/// query that does not move; so is the sign of an element's volume.
-bool starts_within(const Queries& query, Separation distance) {
+/// query that does not move; so is the sign of a cell's volume.
+bool starts_within(const AnyQueries& query, Separation distance) {
   Query at_rest{};
   for (std::size_t i = 0; i < at_rest.coordinates.size(); ++i) {
     const std::size_t point = i / 3 % moving_points;
     at_rest.coordinates[i] = query.numbers[point * query.numbers_of_point() + i % 3];
   }
-  return fast::solve(query.kind, at_rest, {.separation = distance}).verdict == fast::Verdict::yes;
+  fast::CertifiedResult result;
+  base::solve({query.kind, {&at_rest, 1}}, {&result, 1}, {.separation = distance});
+  return result.verdict == fast::Verdict::yes;
 }
 
 /// The kinds that it answers; empty if those are all about contact, and perhaps others.
 std::string other_kinds(const fast::Terms& terms, std::string_view separator) {
   std::string text;
-  if (std::ranges::all_of(contact_kinds, [&](Kind kind) { return terms.answers(kind); })) return {};
-  for (const Kind kind : all_kinds) {
+  if (std::ranges::all_of(contact_kinds, [&](AnyKind kind) { return terms.answers(kind); }))
+    return {};
+  for (const AnyKind kind : all_kinds) {
     if (!terms.answers(kind)) continue;
     text += text.empty() ? "" : separator;
     text += to_string(kind);
@@ -45,7 +49,7 @@ std::string other_kinds(const fast::Terms& terms, std::string_view separator) {
 
 }  // namespace
 
-bool select_queries(const fast::Terms& terms, const QueryShape& shape) {
+bool select_queries(const fast::Terms& terms, const AnyShape& shape) {
   return !terms.answers(shape) || terms.starts_apart || terms.float_coordinates;
 }
 
@@ -61,7 +65,7 @@ bool admits(const fast::Terms& terms, const base::AnyQuery& query, const Separat
   const bool is_finite = touchstone::is_finite(query.numbers());
   if (terms.float_coordinates && !(is_finite && as_asked(terms, query) == query)) return false;
   if (!terms.starts_apart || !is_finite) return true;
-  if (is_element(query.kind())) return !starts_within(query.queries(), {});
+  if (query.kind().is_cell()) return !starts_within(query.queries(), {});
   return !starts_within(query.queries(),
                         {separation.distance + *terms.starts_apart, separation.norm});
 }

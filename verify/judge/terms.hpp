@@ -7,13 +7,13 @@
 #include <string>
 
 #include "fast/method.hpp"
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/base/any_query.hpp"
 
 namespace touchstone::verify::judge {
 
 /// True if the terms leave some queries of that shape out, or change them.
-[[nodiscard]] bool select_queries(const fast::Terms& terms, const QueryShape& shape);
+[[nodiscard]] bool select_queries(const fast::Terms& terms, const AnyShape& shape);
 
 /// The query as a solver with these terms is asked it: rounded to float if it takes no more. A
 /// number beyond all floats becomes infinite.

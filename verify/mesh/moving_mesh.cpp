@@ -25,12 +25,13 @@ MovingMesh read_step(const std::filesystem::path& before, const std::filesystem:
           .note = mesh.note};
 }
 
-std::vector<Query> candidates_of(const MovingMesh& mesh, Kind kind, const Separation& separation,
-                                 const std::atomic<bool>* stop) {
+std::vector<Query> candidates_of(const MovingMesh& mesh, ContactKind kind,
+                                 const Separation& separation, const std::atomic<bool>* stop) {
   const fast::BroadPhaseOptions options{.separation = separation, .stop = stop};
   const std::vector<fast::IndexPair> pairs =
-      kind == Kind::vertex_face ? fast::vertex_face_candidates(mesh.vertices, mesh.faces, options)
-                                : fast::edge_edge_candidates(mesh.vertices, mesh.edges, options);
+      kind == ContactKind::vertex_face
+          ? fast::vertex_face_candidates(mesh.vertices, mesh.faces, options)
+          : fast::edge_edge_candidates(mesh.vertices, mesh.edges, options);
   const fast::Candidates candidates{
       .kind = kind, .pairs = pairs, .edges = mesh.edges, .faces = mesh.faces};
   std::vector<Query> queries;

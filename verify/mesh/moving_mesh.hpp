@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "touchstone/any_kind.hpp"
 #include "touchstone/mesh.hpp"
-#include "touchstone/query.hpp"
 
 namespace touchstone::verify::mesh {
 
@@ -32,7 +32,7 @@ struct MovingMesh {
 /// The pairs that the broad phase finds as queries, with all that come within the distance on every
 /// axis: enough for either norm. \param stop As in the options of the broad phase.
 /// \throws io::Interrupted if the user interrupts.
-[[nodiscard]] std::vector<Query> candidates_of(const MovingMesh& mesh, Kind kind,
+[[nodiscard]] std::vector<Query> candidates_of(const MovingMesh& mesh, ContactKind kind,
                                                const Separation& separation = {},
                                                const std::atomic<bool>* stop = nullptr);
 

@@ -21,6 +21,7 @@
 #include "fast/method.hpp"
 #include "fast/platform/arithmetic_check.hpp"
 #include "touchstone/certified.hpp"
+#include "verify/base/any_decision.hpp"
 #include "verify/base/any_query.hpp"
 #include "verify/judge/terms.hpp"
 #include "verify/solvers/registry.hpp"
@@ -64,7 +65,7 @@ nlohmann::json facts_of(const base::AnyQuery& query, const Separation& separatio
 
 nlohmann::json certified_answer(const base::AnyQuery& query, const Separation& separation) {
   fast::CertifiedResult result;
-  fast::solve(query.queries(), {&result, 1}, {.separation = separation});
+  base::solve(query.queries(), {&result, 1}, {.separation = separation});
   return {{"verdict", judge::to_string(result.verdict)},
           {"toi_lower", result.toi_lower},
           {"toi_upper", result.toi_upper},
@@ -90,7 +91,8 @@ template <class Function>
 const char* said_of(int is_edge_edge, const double* coordinates, double distance, int is_l2,
                     const Function& function) {
   return said([&] {
-    const QueryShape lines{.kind = is_edge_edge != 0 ? Kind::edge_edge : Kind::vertex_face};
+    const AnyShape lines{.kind =
+                             is_edge_edge != 0 ? ContactKind::edge_edge : ContactKind::vertex_face};
     const Separation separation{.distance = distance, .norm = is_l2 != 0 ? Norm::l2 : Norm::linf};
     const base::AnyQuery query({lines, {coordinates, lines.numbers_of_query()}}, 0);
     return function(query, separation);

@@ -65,9 +65,9 @@ using MovingPoints = std::array<Moving<Number>, 4>;
 /// The points of a query: its coordinates in the order of Query, as numbers.
 template <class Number>
 [[nodiscard]] MovingPoints<Number> moving_points_of(
-    Kind kind, const std::array<Number, 3 * query_points>& coordinates) {
+    ContactKind kind, const std::array<Number, 3 * query_points>& coordinates) {
   constexpr std::array<std::size_t, 4> face_then_vertex{1, 2, 3, 0}, edges{0, 1, 2, 3};
-  const auto& order = kind == Kind::vertex_face ? face_then_vertex : edges;
+  const auto& order = kind == ContactKind::vertex_face ? face_then_vertex : edges;
   MovingPoints<Number> points;
   for (std::size_t i = 0; i < moving_points; ++i) {
     for (std::size_t end = 0; end < 2; ++end) {
@@ -81,7 +81,7 @@ template <class Number>
 
 /// The same for number types with a constructor from double.
 template <class Number>
-[[nodiscard]] MovingPoints<Number> moving_points_of(Kind kind, const Query& query) {
+[[nodiscard]] MovingPoints<Number> moving_points_of(ContactKind kind, const Query& query) {
   std::array<Number, 3 * query_points> coordinates;
   for (std::size_t i = 0; i < coordinates.size(); ++i) coordinates[i] = query.coordinates[i];
   return moving_points_of(kind, coordinates);
@@ -138,12 +138,12 @@ template <class Number>
 
 /// G_i's coefficients, by i: all three are ≥ 0 at a root of Y iff there is contact.
 template <class Number>
-[[nodiscard]] Bernstein<Number, 4> inside(Kind kind, const MovingPoints<Number>& points,
+[[nodiscard]] Bernstein<Number, 4> inside(ContactKind kind, const MovingPoints<Number>& points,
                                           const Bernstein<Vector<Number>, 2>& n, std::size_t i) {
   const auto& d = points[3];
   Bernstein<Number, 4> result =
       product(moving_cross(points[(i + 1) % 3], points[(i + 2) % 3], d), n);
-  if (kind == Kind::edge_edge && i == 2) {
+  if (kind == ContactKind::edge_edge && i == 2) {
     for (Number& x : result) x = -x;
   }
   return result;

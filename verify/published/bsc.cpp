@@ -41,7 +41,7 @@ namespace touchstone::verify::published {
 namespace {
 
 /// The quick no: true if every coefficient of Y is beyond a fixed threshold on one side.
-bool is_clearly_apart(Kind kind, const Query& query) {
+bool is_clearly_apart(ContactKind kind, const Query& query) {
   constexpr double threshold = 100 * 0x1p-52;
   const auto points = moving_points_of<double>(kind, query);
   const auto products = coplanarity_products(points, normal_of(points));
@@ -54,7 +54,7 @@ bool is_clearly_apart(Kind kind, const Query& query) {
 template <class Number>
 class SignClassification {
  public:
-  SignClassification(Kind kind, const MovingPoints<Number>& points)
+  SignClassification(ContactKind kind, const MovingPoints<Number>& points)
       : kind_(kind),
         points_(points),
         normal_(normal_of(points)),
@@ -127,19 +127,19 @@ class SignClassification {
     for (std::size_t i = 0; i < 2; ++i) alive[i] = alive[i] && !same_sign(l[i], rest[i]);
   }
 
-  Kind kind_;
+  ContactKind kind_;
   const MovingPoints<Number>& points_;
   Bernstein<Vector<Number>, 2> normal_;
   Bernstein<Number, 3> k_;
 };
 
 /// Not inlined: its arithmetic must stay where the rounding mode is upward.
-[[gnu::noinline]] bool collides_in_intervals(Kind kind, const Query& query) {
+[[gnu::noinline]] bool collides_in_intervals(ContactKind kind, const Query& query) {
   const auto points = moving_points_of<UpwardInterval>(kind, query);
   return SignClassification(kind, points).collides();
 }
 
-bool collides_exactly(Kind kind, const Query& query) {
+bool collides_exactly(ContactKind kind, const Query& query) {
   // Doubled once, products are multiples of 4 and halves of sums of them are integers.
   const auto coordinates = scaled_to_integers(query.coordinates, 1);
   const auto points = moving_points_of(kind, coordinates);
@@ -148,7 +148,7 @@ bool collides_exactly(Kind kind, const Query& query) {
 
 }  // namespace
 
-Answer bsc(Kind kind, const Query& query, const TouchstonePluginOptions& /*options*/) {
+Answer bsc(ContactKind kind, const Query& query, const TouchstonePluginOptions& /*options*/) {
   if (is_clearly_apart(kind, query)) return yes_if(false);
   bool collides = false;
   {

@@ -277,10 +277,10 @@ std::optional<double> edge_edge_time(const Query& query, double eta) {
 
 }  // namespace
 
-Answer fprf(Kind kind, const Query& query, const TouchstonePluginOptions& options) {
+Answer fprf(ContactKind kind, const Query& query, const TouchstonePluginOptions& options) {
   const double eta = options.min_separation;
   const auto time =
-      kind == Kind::vertex_face ? vertex_face_time(query, eta) : edge_edge_time(query, eta);
+      kind == ContactKind::vertex_face ? vertex_face_time(query, eta) : edge_edge_time(query, eta);
   if (!time || *time > options.t_max) return {};
   return {TOUCHSTONE_YES, *time};
 }

@@ -41,14 +41,14 @@ double greatest_length(const Query& query, std::size_t from, std::size_t to) {
 /// F of a query, in intervals.
 class ContactFunction {
  public:
-  ContactFunction(Kind kind, const Query& query) : kind_(kind), query_(query) {}
+  ContactFunction(ContactKind kind, const Query& query) : kind_(kind), query_(query) {}
 
   [[nodiscard]] bool may_vanish(const Box& box) const {
     const auto [t, u, v] = box;
     const auto [a, b, c, d] = points_at(query_, t);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const UpwardInterval f =
-          kind_ == Kind::vertex_face
+          kind_ == ContactKind::vertex_face
               ? a[axis] - (b[axis] + u * (c[axis] - b[axis]) + v * (d[axis] - b[axis]))
               : ((b[axis] - a[axis]) * u + a[axis]) - ((d[axis] - c[axis]) * v + c[axis]);
       if (f.sign() != 0) return false;
@@ -58,27 +58,27 @@ class ContactFunction {
 
   /// True if the box contains a point with u + v ≤ 1.
   [[nodiscard]] bool reaches_domain(const Box& box) const {
-    return kind_ == Kind::edge_edge || box[1].minus_lower + box[2].minus_lower >= -1.0;
+    return kind_ == ContactKind::edge_edge || box[1].minus_lower + box[2].minus_lower >= -1.0;
   }
 
   [[nodiscard]] static bool accepts(const Box& /*box*/) { return true; }
 
  private:
-  Kind kind_;
+  ContactKind kind_;
   const Query& query_;
 };
 
 /// δ divided by the greatest change of F for a unit of the parameter. Infinite without a change:
 /// that parameter needs no splitting.
-std::array<double, 3> parameter_tolerances(Kind kind, const Query& query, double tolerance) {
-  const bool is_face = kind == Kind::vertex_face;
+std::array<double, 3> parameter_tolerances(ContactKind kind, const Query& query, double tolerance) {
+  const bool is_face = kind == ContactKind::vertex_face;
   return {tolerance / greatest_displacement(query),
           tolerance / greatest_length(query, is_face ? 1 : 0, is_face ? 2 : 1),
           tolerance / greatest_length(query, is_face ? 1 : 2, 3)};
 }
 
 /// Not inlined: its arithmetic must stay where the rounding mode is upward.
-[[gnu::noinline]] TouchstoneVerdict search(Kind kind, const Query& query,
+[[gnu::noinline]] TouchstoneVerdict search(ContactKind kind, const Query& query,
                                            const std::array<double, 3>& tolerances,
                                            const TouchstonePluginOptions& options) {
   const Box domain{{{-0.0, options.t_max}, {-0.0, 1.0}, {-0.0, 1.0}}};
@@ -87,7 +87,7 @@ std::array<double, 3> parameter_tolerances(Kind kind, const Query& query, double
 
 }  // namespace
 
-Answer irf(Kind kind, const Query& query, const TouchstonePluginOptions& options) {
+Answer irf(ContactKind kind, const Query& query, const TouchstonePluginOptions& options) {
   const auto tolerances = parameter_tolerances(kind, query, options.tolerance);
   const RoundingMode upward(FE_UPWARD);
   return {search(kind, query, tolerances, options)};

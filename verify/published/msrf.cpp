@@ -126,10 +126,11 @@ CandidateTimes edge_edge_candidates(const Query& query, double h) {
 
 }  // namespace
 
-Answer msrf(Kind kind, const Query& query, const TouchstonePluginOptions& options) {
+Answer msrf(ContactKind kind, const Query& query, const TouchstonePluginOptions& options) {
   const double h = options.min_separation > 0.0 ? options.min_separation : default_separation;
-  const CandidateTimes candidates =
-      kind == Kind::vertex_face ? vertex_face_candidates(query, h) : edge_edge_candidates(query, h);
+  const CandidateTimes candidates = kind == ContactKind::vertex_face
+                                        ? vertex_face_candidates(query, h)
+                                        : edge_edge_candidates(query, h);
   constexpr double never = 2.0;
   double earliest = never;
   for (const double t : candidates.times()) {

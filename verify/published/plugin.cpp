@@ -15,7 +15,7 @@
 
 namespace touchstone::verify::published {
 
-Answer METHOD(Kind kind, const Query& query, const TouchstonePluginOptions& options);
+Answer METHOD(ContactKind kind, const Query& query, const TouchstonePluginOptions& options);
 
 }  // namespace touchstone::verify::published
 
@@ -41,7 +41,8 @@ void touchstone_plugin_solve_batch(std::int32_t kind, std::int64_t count, const 
     coordinates += query.coordinates.size();
     try {
       const auto found = verify::published::METHOD(
-          kind == TOUCHSTONE_VERTEX_FACE ? Kind::vertex_face : Kind::edge_edge, query, *options);
+          kind == TOUCHSTONE_VERTEX_FACE ? ContactKind::vertex_face : ContactKind::edge_edge, query,
+          *options);
       answer->verdict = found.verdict;
       answer->toi_lower = found.toi;
       answer->tolerance = found.tolerance;

@@ -4,10 +4,11 @@
 /// Common parts of the published methods: their answers, and the stream of those that draw random
 /// directions.
 ///
-/// Each method NAME is a function `Answer NAME(Kind, const Query&, const TouchstonePluginOptions&)`
-/// in a source whose comment says its idea, its promise and its known defects;
-/// plugin.cpp makes it a plugin. It is called with finite coordinates, rounding to nearest, and may
-/// change the rounding mode as long as it runs. What it throws counts as a collision.
+/// Each method NAME is a function `Answer NAME(ContactKind, const Query&, const
+/// TouchstonePluginOptions&)` in a source whose comment says its idea, its promise and its known
+/// defects; plugin.cpp makes it a plugin. It is called with finite coordinates, rounding to
+/// nearest, and may change the rounding mode as long as it runs. What it throws counts as a
+/// collision.
 
 #include <bit>
 #include <cstdint>

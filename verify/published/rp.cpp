@@ -67,7 +67,7 @@ struct Boundary {
   std::span<const Triangle> culling_planes;  ///< corners to which planes through 0 are parallel
 };
 
-const Boundary& boundary_of(Kind kind) {
+const Boundary& boundary_of(ContactKind kind) {
   static constexpr std::array<ImageCorner, 6> prism_corners{
       {{0, 0, 1}, {0, 0, 2}, {0, 0, 3}, {1, 0, 1}, {1, 0, 2}, {1, 0, 3}}};
   static constexpr std::array<Triangle, 2> caps{{{0, 1, 2}, {3, 4, 5}}};
@@ -83,7 +83,7 @@ const Boundary& boundary_of(Kind kind) {
   static constexpr std::array<Triangle, 6> cube_planes{
       {{0, 1, 3}, {0, 1, 4}, {1, 2, 5}, {2, 3, 6}, {3, 0, 7}, {4, 5, 7}}};
   static constexpr Boundary cube{cube_corners, {}, cube_patches, cube_planes};
-  return kind == Kind::vertex_face ? prism : cube;
+  return kind == ContactKind::vertex_face ? prism : cube;
 }
 
 Interval difference(const Query& query, const ImageCorner& corner, std::size_t axis) {
@@ -399,7 +399,7 @@ bool has_odd_crossings(const Query& query, const Boundary& boundary,
 
 /// Not inlined: its arithmetic must stay within upward rounding, which does not affect exact
 /// numbers.
-[[gnu::noinline]] bool collides_by_parity(Kind kind, const Query& query) {
+[[gnu::noinline]] bool collides_by_parity(ContactKind kind, const Query& query) {
   const Boundary& boundary = boundary_of(kind);
   std::array<IntervalPoint, 8> memory;
   const std::span corners(memory.data(), boundary.corners.size());
@@ -415,7 +415,7 @@ bool has_odd_crossings(const Query& query, const Boundary& boundary,
 
 }  // namespace
 
-Answer rp(Kind kind, const Query& query, const TouchstonePluginOptions& /*options*/) {
+Answer rp(ContactKind kind, const Query& query, const TouchstonePluginOptions& /*options*/) {
   const RoundingMode upward(FE_UPWARD);
   return yes_if(collides_by_parity(kind, query));
 }

@@ -224,7 +224,7 @@ bool all_move_alike(const Query& query) {
 }
 
 /// F at corner `index` of its domain, at an end of the step.
-Point corner_at(Kind kind, const Query& query, std::size_t index, std::size_t end) {
+Point corner_at(ContactKind kind, const Query& query, std::size_t index, std::size_t end) {
   const Corner& corner = corners(kind)[index];
   Point result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -235,7 +235,7 @@ Point corner_at(Kind kind, const Query& query, std::size_t index, std::size_t en
 }
 
 /// The images of the domain's sides: each swept by an edge of F's polygon from t=0 to t=1.
-std::vector<Patch> sides(Kind kind, const Query& query) {
+std::vector<Patch> sides(ContactKind kind, const Query& query) {
   const std::size_t count = corners(kind).size();
   std::vector<Patch> patches;
   for (std::size_t i = 0; i < count; ++i) {
@@ -246,14 +246,14 @@ std::vector<Patch> sides(Kind kind, const Query& query) {
   return patches;
 }
 
-bool rrp_collides(Kind kind, const Query& query) {
+bool rrp_collides(ContactKind kind, const Query& query) {
   if (all_move_alike(query)) return false;
   std::vector<Patch> patches = sides(kind, query);
   std::vector<Triangle> caps;
   for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
     const auto at = [&](std::size_t i) { return corner_at(kind, query, i, end); };
-    if (kind == Kind::vertex_face) caps.push_back({at(0), at(1), at(2)});
-    if (kind == Kind::edge_edge) patches.push_back({at(0), at(1), at(2), at(3)});
+    if (kind == ContactKind::vertex_face) caps.push_back({at(0), at(1), at(2)});
+    if (kind == ContactKind::edge_edge) patches.push_back({at(0), at(1), at(2), at(3)});
   }
   const Hit hit = RayParity(query).run(caps, patches);
   return hit == Hit::crosses || hit == Hit::on_surface;
@@ -261,7 +261,7 @@ bool rrp_collides(Kind kind, const Query& query) {
 
 }  // namespace
 
-Answer rrp(Kind kind, const Query& query, const TouchstonePluginOptions& /*options*/) {
+Answer rrp(ContactKind kind, const Query& query, const TouchstonePluginOptions& /*options*/) {
   return yes_if(rrp_collides(kind, query));
 }
 

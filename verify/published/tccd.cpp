@@ -207,7 +207,7 @@ bool has_contact_beside_inflection(const Cubic& k, const Inside& inside) {
   return crosses(cubics.before, &Parts<4>::before) || crosses(cubics.after, &Parts<4>::after);
 }
 
-bool tccd_collides(Kind kind, const Query& query) {
+bool tccd_collides(ContactKind kind, const Query& query) {
   const auto points = moving_points_of<Number>(kind, query);
   const auto normal = normal_of(points);
   const Cubic k = coplanarity(points, normal);
@@ -225,7 +225,7 @@ bool tccd_collides(Kind kind, const Query& query) {
 
 }  // namespace
 
-Answer tccd(Kind kind, const Query& query, const TouchstonePluginOptions& /*options*/) {
+Answer tccd(ContactKind kind, const Query& query, const TouchstonePluginOptions& /*options*/) {
   return yes_if(tccd_collides(kind, query));
 }
 

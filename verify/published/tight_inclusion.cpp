@@ -38,7 +38,7 @@ constexpr fast::BoxKernel released_kernel =
 constexpr fast::BoxKernel float_kernel =
     BoxKernelOnLanes<Lanes<float>>::kernel(InstructionSet::scalar);
 
-Answer solve(Kind kind, const Query& query, const TouchstonePluginOptions& options,
+Answer solve(ContactKind kind, const Query& query, const TouchstonePluginOptions& options,
              const fast::TightInclusionVariant& variant) {
   const fast::TightInclusionResult result =
       fast::tight_inclusion(kind, query,
@@ -52,17 +52,17 @@ Answer solve(Kind kind, const Query& query, const TouchstonePluginOptions& optio
 
 }  // namespace
 
-Answer tight_inclusion_published(Kind kind, const Query& query,
+Answer tight_inclusion_published(ContactKind kind, const Query& query,
                                  const TouchstonePluginOptions& options) {
   return solve(kind, query, options, {*fast::box_kernels().back(), published_filter});
 }
 
-Answer tight_inclusion_released(Kind kind, const Query& query,
+Answer tight_inclusion_released(ContactKind kind, const Query& query,
                                 const TouchstonePluginOptions& options) {
   return solve(kind, query, options, {released_kernel, released_filter});
 }
 
-Answer tight_inclusion_float(Kind kind, const Query& query,
+Answer tight_inclusion_float(ContactKind kind, const Query& query,
                              const TouchstonePluginOptions& options) {
   return solve(kind, query, options, {float_kernel, float_filter});
 }

@@ -57,12 +57,12 @@ bool may_touch_edge(const IntervalPoints& points) {
 /// f of a query, in intervals, and the inside test.
 class Coplanarity {
  public:
-  Coplanarity(Kind kind, const Query& query) : kind_(kind), query_(query) {}
+  Coplanarity(ContactKind kind, const Query& query) : kind_(kind), query_(query) {}
 
   [[nodiscard]] bool may_vanish(const Box& box) const {
     const auto [a, b, c, d] = points_at(query_, box[0]);
-    const UpwardInterval f = kind_ == Kind::vertex_face ? dot(cross(c - b, d - b), a - b)
-                                                        : dot(cross(b - a, d - c), c - a);
+    const UpwardInterval f = kind_ == ContactKind::vertex_face ? dot(cross(c - b, d - b), a - b)
+                                                               : dot(cross(b - a, d - c), c - a);
     return f.sign() == 0;
   }
 
@@ -70,16 +70,16 @@ class Coplanarity {
 
   [[nodiscard]] bool accepts(const Box& box) const {
     const IntervalPoints points = points_at(query_, box[0]);
-    return kind_ == Kind::vertex_face ? may_touch_face(points) : may_touch_edge(points);
+    return kind_ == ContactKind::vertex_face ? may_touch_face(points) : may_touch_edge(points);
   }
 
  private:
-  Kind kind_;
+  ContactKind kind_;
   const Query& query_;
 };
 
 /// Not inlined: its arithmetic must stay where the rounding mode is upward.
-[[gnu::noinline]] Answer search(Kind kind, const Query& query, double tolerance,
+[[gnu::noinline]] Answer search(ContactKind kind, const Query& query, double tolerance,
                                 const TouchstonePluginOptions& options) {
   const auto [verdict, box] =
       search_box(Coplanarity(kind, query), Box{UpwardInterval{-0.0, options.t_max}},
@@ -90,7 +90,7 @@ class Coplanarity {
 
 }  // namespace
 
-Answer uirf(Kind kind, const Query& query, const TouchstonePluginOptions& options) {
+Answer uirf(ContactKind kind, const Query& query, const TouchstonePluginOptions& options) {
   const double tolerance = options.tolerance / greatest_displacement(query);
   const RoundingMode upward(FE_UPWARD);
   return search(kind, query, tolerance, options);

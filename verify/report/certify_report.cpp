@@ -14,7 +14,7 @@
 #include <string_view>
 #include <utility>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/io/csv.hpp"
 #include "verify/io/dataset_error.hpp"
 #include "verify/io/json.hpp"
@@ -595,7 +595,7 @@ std::string truth_header() {
   return io::csv_row({"file", "index", "kind", "collides", "toi_lower", "toi_upper"});
 }
 
-std::string truth_row(const std::string& file, Kind kind, const judge::GroundTruth& truth) {
+std::string truth_row(const std::string& file, AnyKind kind, const judge::GroundTruth& truth) {
   const auto [lower, upper] = truth.toi.value_or(exact::DoubleInterval{unknown, unknown});
   return io::csv_row({file, std::to_string(truth.index), std::string(to_string(kind)),
                       truth.collides ? "1" : "0", io::csv_number(lower), io::csv_number(upper)});
@@ -640,7 +640,7 @@ std::string list_text(std::string_view title, const KnownAnswers& answers) {
 
 }  // namespace
 
-KnownAnswer known_query(const std::string& solver, const std::string& file, Kind kind,
+KnownAnswer known_query(const std::string& solver, const std::string& file, AnyKind kind,
                         std::uint64_t index, const Separation& separation) {
   return {.solver = solver,
           .file = file,

@@ -70,7 +70,7 @@ namespace touchstone::verify::report {
 /// A row of it: collides as 0 or 1, the ends of the enclosure (neighbouring doubles or equal) with
 /// as many digits as give the same double again, empty without collision. The file's name is quoted
 /// where CSV demands it.
-[[nodiscard]] std::string truth_row(const std::string& file, Kind kind,
+[[nodiscard]] std::string truth_row(const std::string& file, AnyKind kind,
                                     const judge::GroundTruth& truth);
 
 // A gate for changes of a solver: a baseline of its known wrong answers, so that only new ones
@@ -92,8 +92,9 @@ struct KnownAnswer {
 using KnownAnswers = std::set<KnownAnswer>;
 
 /// The key of the answers of a solver to a query; its fault is the first of all.
-[[nodiscard]] KnownAnswer known_query(const std::string& solver, const std::string& file, Kind kind,
-                                      std::uint64_t index, const Separation& separation);
+[[nodiscard]] KnownAnswer known_query(const std::string& solver, const std::string& file,
+                                      AnyKind kind, std::uint64_t index,
+                                      const Separation& separation);
 
 /// Adds the known answers about that query to others.
 void add_of_query(const KnownAnswers& known, const KnownAnswer& query, KnownAnswers& to);

@@ -30,7 +30,7 @@ std::string rest_text(std::size_t all, std::string_view where) {
   return fmt::format("  ... and {} more ({})\n", all - most_pairs, where);
 }
 
-std::uint64_t count_of(const jobs::PairCounts& counts, fast::PairKind kind) {
+std::uint64_t count_of(const jobs::PairCounts& counts, ContactKind kind) {
   return counts.at(static_cast<std::size_t>(kind));
 }
 
@@ -40,7 +40,7 @@ std::vector<fast::StepCollision> known_collisions(const StepRecord& step) {
   return step.earliest ? step.earliest->pairs : std::vector<fast::StepCollision>();
 }
 
-/// Likewise the elements that invert.
+/// Likewise the cells that invert.
 std::vector<fast::StepInversion> known_inversions(const StepRecord& step) {
   if (step.inversions) return *step.inversions;
   return step.earliest ? step.earliest->inversions : std::vector<fast::StepInversion>();
@@ -86,12 +86,12 @@ std::string_view name_of(jobs::StepQuestion question) {
 
 /// Kinds that have a candidate in some step, and the two of every mesh; none if candidates were not
 /// counted.
-std::vector<fast::PairKind> kinds_in(const StepReport& report) {
-  std::vector<fast::PairKind> kinds;
+std::vector<ContactKind> kinds_in(const StepReport& report) {
+  std::vector<ContactKind> kinds;
   const auto is_counted = [](const StepRecord& step) { return step.candidates.has_value(); };
   if (!std::ranges::all_of(report.steps, is_counted)) return kinds;
-  std::ranges::copy_if(jobs::pair_kinds, std::back_inserter(kinds), [&](fast::PairKind kind) {
-    return kind == fast::PairKind::vertex_face || kind == fast::PairKind::edge_edge ||
+  std::ranges::copy_if(jobs::pair_kinds, std::back_inserter(kinds), [&](ContactKind kind) {
+    return kind == ContactKind::vertex_face || kind == ContactKind::edge_edge ||
            std::ranges::any_of(report.steps, [kind](const StepRecord& step) {
              return count_of(*step.candidates, kind) != 0;
            });
@@ -116,11 +116,11 @@ bool has_intersections(const StepReport& report) {
 }
 
 io::TextTable table_of(const StepReport& report) {
-  const std::vector<fast::PairKind> kinds = kinds_in(report);
+  const std::vector<ContactKind> kinds = kinds_in(report);
   const bool has_counts = report.question == jobs::StepQuestion::all;
   std::vector<io::TextColumn> columns{io::word_column("step", 10)};
-  for (const fast::PairKind kind : kinds) {
-    columns.push_back({std::string(fast::to_string(kind)), 11});
+  for (const ContactKind kind : kinds) {
+    columns.push_back({std::string(to_string(kind)), 11});
     if (has_counts) columns.push_back({"collide", 7});
   }
   const bool has_inversions = has_counts && !report.tetrahedra.empty();
@@ -135,7 +135,7 @@ io::TextTable table_of(const StepReport& report) {
     io::TextRow row{step_name(report, i)};
     const jobs::PairCounts colliding =
         has_counts ? jobs::counts_of(*step.collisions) : jobs::PairCounts{};
-    for (const fast::PairKind kind : kinds) {
+    for (const ContactKind kind : kinds) {
       row.push_back(std::to_string(count_of(*step.candidates, kind)));
       if (has_counts) row.push_back(std::to_string(count_of(colliding, kind)));
     }
@@ -161,13 +161,13 @@ std::string pair_text(const StepReport& report, const fast::StepCollision& colli
     return fmt::format("edge {} ({})", i, vertices_text(report.edges, i));
   };
   switch (collision.kind) {
-    case fast::PairKind::vertex_face:
+    case ContactKind::vertex_face:
       return fmt::format("vertex {}, face {} ({})", a, b, vertices_text(report.faces, b));
-    case fast::PairKind::edge_edge:
+    case ContactKind::edge_edge:
       return edge(a) + ", " + edge(b);
-    case fast::PairKind::vertex_edge:
+    case ContactKind::vertex_edge:
       return fmt::format("vertex {}, ", a) + edge(b);
-    case fast::PairKind::vertex_vertex:
+    case ContactKind::vertex_vertex:
       return fmt::format("vertices {} and {}", a, b);
   }
   return "";
@@ -191,32 +191,32 @@ void append_collisions(std::string& text, const StepReport& report, std::size_t 
 }
 
 void append_inversions(std::string& text, const StepReport& report, std::size_t i) {
-  std::vector<fast::StepInversion> elements = known_inversions(report.steps[i]);
-  if (elements.empty()) return;
-  std::ranges::stable_sort(elements, {}, &fast::StepInversion::toi_lower);
-  text += fmt::format("\n{}: elements that invert{}\n", step_name(report, i),
+  std::vector<fast::StepInversion> cells = known_inversions(report.steps[i]);
+  if (cells.empty()) return;
+  std::ranges::stable_sort(cells, {}, &fast::StepInversion::toi_lower);
+  text += fmt::format("\n{}: cells that invert{}\n", step_name(report, i),
                       report.question == jobs::StepQuestion::earliest ? " first" : "");
   io::TextTable table(
-      {io::word_column("  element", 30), {"from t", 24}, {"to", 24}, io::word_column("start", 8)});
+      {io::word_column("  cell", 30), {"from t", 24}, {"to", 24}, io::word_column("start", 8)});
   constexpr std::array<std::string_view, 3> starts{"inverted", "flat", "positive"};
   for (const fast::StepInversion& one :
-       std::span(elements).first(std::min(elements.size(), most_pairs))) {
-    table.add({fmt::format("  {} {} ({})", to_string(one.kind), one.element,
-                           vertices_text(report.tetrahedra, one.element)),
+       std::span(cells).first(std::min(cells.size(), most_pairs))) {
+    table.add({fmt::format("  {} {} ({})", to_string(one.kind), one.cell,
+                           vertices_text(report.tetrahedra, one.cell)),
                fmt::format("{}", one.toi_lower), fmt::format("{}", one.toi_upper),
                std::string(starts.at(static_cast<std::size_t>(one.start + 1)))});
   }
-  text += table.text() + rest_text(elements.size(), "--csv FILE");
+  text += table.text() + rest_text(cells.size(), "--csv FILE");
 }
 
 /// "face 7 (1 2 3)".
 std::string element_text(std::span<const fast::Face> faces, std::span<const fast::Edge> edges,
-                         fast::ElementKind kind, std::int32_t number) {
-  std::string name = fmt::format("{} {}", fast::to_string(kind), number);
-  if (kind == fast::ElementKind::point) return name;
+                         fast::PrimitiveKind kind, std::int32_t number) {
+  std::string name = fmt::format("{} {}", to_string(kind), number);
+  if (kind == fast::PrimitiveKind::point) return name;
   return fmt::format("{} ({})", name,
-                     kind == fast::ElementKind::face ? vertices_text(faces, number)
-                                                     : vertices_text(edges, number));
+                     kind == fast::PrimitiveKind::face ? vertices_text(faces, number)
+                                                       : vertices_text(edges, number));
 }
 
 std::string element_text(const StepReport& report, const fast::Intersection& one, std::size_t i) {
@@ -312,22 +312,22 @@ std::string heading(const StepReport& report) {
 // ---- JSON and CSV -------------------------------------------------------------------------------
 
 /// "vertex_face": names in JSON.
-std::string key_of(fast::PairKind kind) {
-  std::string key(fast::to_string(kind));
+std::string key_of(ContactKind kind) {
+  std::string key(to_string(kind));
   std::ranges::replace(key, '-', '_');
   return key;
 }
 
 nlohmann::json json_of(const jobs::PairCounts& counts) {
   nlohmann::json json = nlohmann::json::object();
-  for (const fast::PairKind kind : jobs::pair_kinds) json[key_of(kind)] = count_of(counts, kind);
+  for (const ContactKind kind : jobs::pair_kinds) json[key_of(kind)] = count_of(counts, kind);
   return json;
 }
 
 nlohmann::json json_of(const Eigen::Vector3d& x) { return {x[0], x[1], x[2]}; }
 
 nlohmann::json json_of(const fast::ActiveContact& contact) {
-  return {{"kind", fast::to_string(contact.kind)},
+  return {{"kind", to_string(contact.kind)},
           {"first", contact.pair[0]},
           {"second", contact.pair[1]},
           {"toi_lower", contact.toi_lower},
@@ -350,7 +350,7 @@ nlohmann::json earliest_contacts(const StepRecord& step) {
   }
   for (const fast::StepInversion& one : step.earliest->inversions) {
     contacts.push_back({{"kind", to_string(one.kind)},
-                        {"element", one.element},
+                        {"cell", one.cell},
                         {"start", one.start},
                         {"toi_lower", one.toi_lower},
                         {"toi_upper", one.toi_upper}});
@@ -468,7 +468,7 @@ std::string step_csv_rows(const StepReport& report, std::size_t i) {
     std::vector<std::string> row{std::to_string(i),
                                  report.frames.at(i).name,
                                  report.frames.at(i + 1).name,
-                                 std::string(fast::to_string(contact.kind)),
+                                 std::string(to_string(contact.kind)),
                                  std::to_string(contact.pair[0]),
                                  std::to_string(contact.pair[1])};
     const auto add = [&row](double number) { row.push_back(io::csv_number(number)); };
@@ -487,7 +487,7 @@ std::string step_csv_rows(const StepReport& report, std::size_t i) {
                                  report.frames.at(i).name,
                                  report.frames.at(i + 1).name,
                                  std::string(to_string(one.kind)),
-                                 std::to_string(one.element),
+                                 std::to_string(one.cell),
                                  "",
                                  io::csv_number(one.toi_lower),
                                  io::csv_number(one.toi_upper)};
@@ -506,14 +506,14 @@ struct NamedElement {
   std::int32_t number = 0;
 };
 
-std::size_t count_of(const mesh::Mesh& mesh, fast::ElementKind kind) {
-  if (kind == fast::ElementKind::face) return mesh.faces.size();
-  if (kind == fast::ElementKind::edge) return mesh.edges.size();
+std::size_t count_of(const mesh::Mesh& mesh, fast::PrimitiveKind kind) {
+  if (kind == fast::PrimitiveKind::face) return mesh.faces.size();
+  if (kind == fast::PrimitiveKind::edge) return mesh.edges.size();
   return static_cast<std::size_t>(mesh.vertices.rows());
 }
 
 /// The element of one of the meshes that has a number in the joined one.
-NamedElement named(const std::vector<RestingMesh>& meshes, fast::ElementKind kind,
+NamedElement named(const std::vector<RestingMesh>& meshes, fast::PrimitiveKind kind,
                    std::int32_t number) {
   NamedElement result{0, number};
   while (std::cmp_greater_equal(result.number, count_of(meshes.at(result.mesh).mesh, kind))) {
@@ -523,7 +523,7 @@ NamedElement named(const std::vector<RestingMesh>& meshes, fast::ElementKind kin
   return result;
 }
 
-std::string element_text(const std::vector<RestingMesh>& meshes, fast::ElementKind kind,
+std::string element_text(const std::vector<RestingMesh>& meshes, fast::PrimitiveKind kind,
                          std::int32_t number) {
   const auto [mesh, own] = named(meshes, kind, number);
   const auto& [name, of, defects, inversions] = meshes[mesh];
@@ -602,7 +602,7 @@ std::string numbers_text(std::string_view name, const std::vector<Item>& numbers
 std::vector<std::int32_t> tetrahedra_with(const RestingMesh& mesh, int sign) {
   std::vector<std::int32_t> result;
   for (const fast::StepInversion& one : mesh.inversions) {
-    if (one.start == sign) result.push_back(one.element);
+    if (one.start == sign) result.push_back(one.cell);
   }
   return result;
 }

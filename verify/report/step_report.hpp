@@ -55,7 +55,7 @@ struct StepReport {
 /// True if something touches or inverts in a step, or a frame intersects itself.
 [[nodiscard]] bool has_collisions(const StepReport& report);
 
-/// A line for each step; then, for each step, the pairs that touch and the elements that invert,
+/// A line for each step; then, for each step, the pairs that touch and the cells that invert,
 /// the earliest ten of each; then the pairs that intersect, ten of a frame; last the meaning of a
 /// verdict on frames.
 [[nodiscard]] std::string to_text(const StepReport& report);
@@ -65,13 +65,13 @@ struct StepReport {
 /// for or do not exist there is null. `proof` has `claim`, `rules`, `directions` and
 /// `certificates`, the pairs that are argued by each, `bytes`, and `complete`; `seconds` have
 /// `broad_phase`, `narrow_phase` and `total`. A pair of `earliest` is as fast::ActiveContact, if
-/// contacts were asked for, and an element, behind the pairs, as fast::StepInversion.
+/// contacts were asked for, and a cell, behind the pairs, as fast::StepInversion.
 [[nodiscard]] nlohmann::json to_json(const StepReport& report);
 
 /// The names of the columns (docs/cli.md, "Steps").
 [[nodiscard]] std::string step_csv_header();
 
-/// A row for each contact of step `i`, then for each inversion, with the kind, its element as
+/// A row for each contact of step `i`, then for each inversion, with the kind, its cell as
 /// `first`, its times and its `start`: 1, or 0 and -1 if it was flat or inverted from the start.
 /// `normal_error` is inf where there is no normal, or no bound; `has_side` is 0 or 1.
 [[nodiscard]] std::string step_csv_rows(const StepReport& report, std::size_t i);

@@ -48,7 +48,7 @@ fast::Answer answer_of(const fast::CertifiedResult& result) {
 
 std::string answers_header() { return std::string(header) + "\n"; }
 
-std::string answer_row(std::string_view file, std::uint64_t index, Kind kind,
+std::string answer_row(std::string_view file, std::uint64_t index, AnyKind kind,
                        const fast::Answer& answer, const judge::Failure* failure) {
   const std::optional<judge::Failure> why =
       failure != nullptr ? std::optional(*failure) : judge::failure_of(answer);
@@ -138,7 +138,7 @@ class AnswersReader {
   }
 
   /// The group of the row at hand: nearly always that of the row before.
-  RecordedAnswers::Rows& rows_of(Kind kind) {
+  RecordedAnswers::Rows& rows_of(AnyKind kind) {
     if (group_ == nullptr || group_->first.second != kind || group_field_ != raw(Column::file)) {
       group_field_ = raw(Column::file);
       if (group_field_.empty()) fail(Column::file, "no file name");
@@ -154,7 +154,7 @@ class AnswersReader {
     return *value;
   }
 
-  [[nodiscard]] Kind read_kind() const {
+  [[nodiscard]] AnyKind read_kind() const {
     try {
       return kind_from_string(field(Column::kind));
     } catch (const std::invalid_argument& error) {
@@ -232,7 +232,7 @@ class AnswersReader {
   std::string group_field_;  // that named the group
 };
 
-std::optional<RecordedAnswer> RecordedAnswers::answer_to(std::string_view file, Kind kind,
+std::optional<RecordedAnswer> RecordedAnswers::answer_to(std::string_view file, AnyKind kind,
                                                          std::uint64_t index) const {
   // The file has names as csv_field() writes them.
   const std::string name = io::is_printable(file) ? std::string() : io::printable(file);

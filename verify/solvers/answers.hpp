@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "fast/method.hpp"
+#include "touchstone/any_kind.hpp"
 #include "touchstone/certified.hpp"
-#include "touchstone/query.hpp"
 #include "verify/judge/fault.hpp"
 
 namespace touchstone::verify::solvers {
@@ -37,7 +37,7 @@ namespace touchstone::verify::solvers {
 /// A row of the file, with its line end. Numbers have as many digits as give the same double again.
 /// \param failure the reason for a missing answer; null: as the answer shows (failure_of); then an
 /// answer that is not finite becomes an error, and an undecided one has an empty field
-[[nodiscard]] std::string answer_row(std::string_view file, std::uint64_t index, Kind kind,
+[[nodiscard]] std::string answer_row(std::string_view file, std::uint64_t index, AnyKind kind,
                                      const fast::Answer& answer,
                                      const judge::Failure* failure = nullptr);
 
@@ -54,7 +54,7 @@ class RecordedAnswers {
   /// The records of the file under one name and kind.
   struct Group {
     std::string file;
-    Kind kind;
+    AnyKind kind;
     std::uint64_t answers;
     /// The number of these that answer_to() never returned: answers to queries that do not exist.
     std::uint64_t unasked;
@@ -64,7 +64,7 @@ class RecordedAnswers {
 
   /// The answer to a query, if there is one, which then counts as asked for. May be called from
   /// several threads at once.
-  [[nodiscard]] std::optional<RecordedAnswer> answer_to(std::string_view file, Kind kind,
+  [[nodiscard]] std::optional<RecordedAnswer> answer_to(std::string_view file, AnyKind kind,
                                                         std::uint64_t index) const;
 
   /// All groups, ordered by name and kind. Not to be called while another thread is in answer_to().
@@ -88,12 +88,12 @@ class RecordedAnswers {
 
   /// A deque grows without a second copy of its rows.
   using Rows = std::deque<Row>;
-  using Key = std::pair<std::string, Kind>;
+  using Key = std::pair<std::string, AnyKind>;
   struct KeyLess {
     using is_transparent = void;  // NOLINT(readability-identifier-naming): the library's name
     template <class A, class B>
     bool operator()(const A& a, const B& b) const {
-      return std::pair<std::string_view, Kind>(a) < std::pair<std::string_view, Kind>(b);
+      return std::pair<std::string_view, AnyKind>(a) < std::pair<std::string_view, AnyKind>(b);
     }
   };
 

@@ -133,21 +133,21 @@ Stated checked(const TouchstonePluginPromise& stated, const std::filesystem::pat
   require(
       stated.promise >= TOUCHSTONE_PROMISES_NOTHING && stated.promise <= TOUCHSTONE_PROMISES_EXACT,
       "promise");
-  const auto& [contacts, elements] = std::tie(stated.kinds, stated.elements);
-  require(std::ranges::all_of(contacts, is_flag) && std::ranges::all_of(elements, is_flag) &&
-              contacts[0] + contacts[1] + elements[0] + elements[1] != 0,
+  const auto& [contacts, cells] = std::tie(stated.kinds, stated.elements);
+  require(std::ranges::all_of(contacts, is_flag) && std::ranges::all_of(cells, is_flag) &&
+              contacts[0] + contacts[1] + cells[0] + cells[1] != 0,
           "kinds or elements");
   require(is_flag(stated.is_float), "is_float");
   require(stated.times >= TOUCHSTONE_TIMES_BOUNDS && stated.times <= TOUCHSTONE_TIMES_NONE,
           "times");
   require(std::isfinite(stated.starts_apart), "starts_apart");
   require(std::isfinite(stated.time_error) && stated.time_error >= 0.0, "time_error");
-  Stated result{
-      .promise = static_cast<fast::Promise>(stated.promise),
-      .terms = {.kinds = {contacts[0] == 1, contacts[1] == 1, elements[0] == 1, elements[1] == 1},
-                .float_coordinates = stated.is_float == 1,
-                .times = static_cast<fast::Times>(stated.times),
-                .time_error = stated.time_error}};
+  Stated result{.promise = static_cast<fast::Promise>(stated.promise),
+                .terms = {.contacts = {contacts[0] == 1, contacts[1] == 1},
+                          .cells = {cells[0] == 1, cells[1] == 1},
+                          .float_coordinates = stated.is_float == 1,
+                          .times = static_cast<fast::Times>(stated.times),
+                          .time_error = stated.time_error}};
   if (stated.starts_apart >= 0.0) result.terms.starts_apart = stated.starts_apart;
   return result;
 }
@@ -241,13 +241,8 @@ constexpr TouchstonePluginAnswer unanswered{.verdict = TOUCHSTONE_ERROR,
                                             .toi_upper = fast::Answer::none,
                                             .tolerance = fast::Answer::none};
 
-/// The number by which plugins know a kind: one of TouchstoneKind.
-std::int32_t plugin_kind(Kind kind) {
-  static constexpr std::array<std::int32_t, all_kinds.size()> numbers{
-      TOUCHSTONE_VERTEX_FACE, TOUCHSTONE_EDGE_EDGE, TOUCHSTONE_TETRAHEDRON,
-      TOUCHSTONE_PLANE_TRIANGLE};
-  return numbers.at(static_cast<std::size_t>(kind));
-}
+static_assert(AnyKind(ContactKind::edge_edge).number() == TOUCHSTONE_EDGE_EDGE &&
+              AnyKind(CellKind::plane_triangle).number() == TOUCHSTONE_PLANE_TRIANGLE);
 
 class PluginMethod final : public fast::Method {
  public:
@@ -264,7 +259,7 @@ class PluginMethod final : public fast::Method {
 
   [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
 
-  void solve(const Queries& queries, std::span<fast::Answer> answers,
+  void solve(const AnyQueries& queries, std::span<fast::Answer> answers,
              const fast::MethodOptions& options) const override {
     std::call_once(is_loaded_, [this] {
       library_ = open_library(path_, state_);
@@ -278,10 +273,10 @@ class PluginMethod final : public fast::Method {
   }
 
  private:
-  void ask(const Queries& queries, const TouchstonePluginOptions& options,
+  void ask(const AnyQueries& queries, const TouchstonePluginOptions& options,
            std::span<TouchstonePluginAnswer> found) const {
     const SameProcess same;
-    const std::int32_t kind = plugin_kind(queries.kind);
+    const auto kind = static_cast<std::int32_t>(queries.kind.number());
     if (queries.is_straight() && functions_.solve_batch != nullptr) {
       functions_.solve_batch(kind, std::ssize(found), queries.numbers.data(), &options,
                              found.data());
@@ -437,7 +432,11 @@ static_assert(calls.size() == named.size() && named.size() == refused.size() &&
 }  // namespace
 
 fast::Terms changed(fast::Terms terms, const TermsChanges& changes) {
-  terms.kinds = changes.kinds.value_or(terms.kinds);
+  if (!changes.kinds.empty()) {
+    terms.contacts = {};
+    terms.cells = {};
+    for (const AnyKind kind : changes.kinds) terms.add(kind);
+  }
   if (changes.starts_apart) terms.starts_apart = changes.starts_apart;
   terms.float_coordinates = changes.float_coordinates.value_or(terms.float_coordinates);
   terms.times = changes.times.value_or(terms.times);

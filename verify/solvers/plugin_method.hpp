@@ -21,7 +21,7 @@ namespace touchstone::verify::solvers {
 
 /// Terms in place of those that a solver states itself.
 struct TermsChanges {
-  std::optional<decltype(fast::Terms::kinds)> kinds = std::nullopt;
+  std::vector<AnyKind> kinds = {};  ///< empty: as they are
   std::optional<double> starts_apart = std::nullopt;
   std::optional<bool> float_coordinates = std::nullopt;
   std::optional<fast::Times> times = std::nullopt;

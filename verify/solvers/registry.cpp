@@ -45,13 +45,13 @@ const std::vector<std::unique_ptr<const fast::Method>>& methods() {
   return all;
 }
 
-std::vector<std::string> default_methods(std::span<const Kind> kinds) {
+std::vector<std::string> default_methods(std::span<const AnyKind> kinds) {
   std::vector<std::string> names;
   for (const auto& method : methods()) {
     const fast::MethodInfo& info = method->info();
     const bool promises =
         info.promise != fast::Promise::none &&
-        std::ranges::any_of(kinds, [&](Kind kind) { return info.terms.answers(kind); });
+        std::ranges::any_of(kinds, [&](AnyKind kind) { return info.terms.answers(kind); });
     if (promises && info.variant_of.empty() && !info.is_baseline) names.emplace_back(info.name);
   }
   return names;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "fast/method.hpp"
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 
 namespace touchstone::verify::solvers {
 
@@ -20,7 +20,8 @@ namespace touchstone::verify::solvers {
 
 /// The names of those that are judged where the user names none: all that promise something, in
 /// their default setting, and answer one of the kinds, without the baselines.
-[[nodiscard]] std::vector<std::string> default_methods(std::span<const Kind> kinds = contact_kinds);
+[[nodiscard]] std::vector<std::string> default_methods(
+    std::span<const AnyKind> kinds = std::span(all_kinds).first(contact_kinds.size()));
 
 /// The method of that name.
 /// \throws std::invalid_argument, with the names there are, if there is none.

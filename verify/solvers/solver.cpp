@@ -127,9 +127,9 @@ class InChildren final : public Solver {
   using QueryBits = std::vector<std::uint64_t>;
 
   static QueryBits bits_of(const SolveRequest& request, std::size_t i) {
-    const Queries& all = request.queries;
+    const AnyQueries& all = request.queries;
     const auto to_bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-    QueryBits bits{static_cast<std::uint64_t>(all.kind), all.degree, all.is_rational ? 1U : 0U,
+    QueryBits bits{std::uint64_t{all.kind.index()}, all.degree, all.is_rational ? 1U : 0U,
                    static_cast<std::uint64_t>(request.separation.norm),
                    to_bits(request.separation.distance)};
     std::ranges::transform(all.row(i), std::back_inserter(bits), to_bits);
@@ -303,7 +303,7 @@ SolveReply Solver::solve(const SolveRequest& request, std::span<fast::Answer> an
   }
   std::vector<fast::Answer> given(positions.size());
   SolveRequest within = request;
-  within.queries = Queries(request.queries, numbers);
+  within.queries = AnyQueries(request.queries, numbers);
   within.indices = indices;
   SolveReply of_within;
   const SolverTime time = time_of([&] {

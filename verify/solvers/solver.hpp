@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "fast/method.hpp"
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/judge/judge.hpp"
 #include "verify/judge/judgement.hpp"
@@ -27,7 +27,7 @@ namespace touchstone::verify::solvers {
 
 /// Some queries, and where they come from.
 struct SolveRequest {
-  Queries queries = {};
+  AnyQueries queries = {};
   /// Minimum separation. Methods take it from here, whatever their MethodOptions say.
   Separation separation = {};
   /// The key to recorded answers: the name of the source, and the queries' numbers in it.

@@ -72,7 +72,7 @@ struct Shared {
   std::atomic<double> started_at;         ///< wall-clock seconds then; 0 before the first batch
   std::atomic<double> processor_seconds;  ///< of the batches that are done
   std::atomic<double> wall_seconds;
-  QueryShape shape;
+  AnyShape shape;
   fast::MethodOptions options;
   std::size_t first;   ///< queries from this number
   std::size_t last;    ///< to before this one are to be solved,
@@ -108,7 +108,7 @@ std::unique_ptr<Shared, Unmap> share_memory() {
 void warm_up(const fast::Method& method, Shared& shared) {
   std::ranges::fill(shared.answers, fast::Answer{});
   try {
-    method.solve(Queries(shared.shape, {}), {}, shared.options);
+    method.solve(AnyQueries(shared.shape, {}), {}, shared.options);
   } catch (...) {
     // The queries will show it.
     return;
@@ -136,7 +136,7 @@ bool solve_batch(const fast::Method& method, Shared& shared, std::size_t begin, 
   const std::size_t size = shared.shape.numbers_of_query();
   const auto numbers = std::span<const double>(shared.numbers).subspan(begin * size, count * size);
   try {
-    method.solve(Queries(shared.shape, numbers), std::span(shared.answers).subspan(begin, count),
+    method.solve(AnyQueries(shared.shape, numbers), std::span(shared.answers).subspan(begin, count),
                  shared.options);
   } catch (...) {
     if (count > 1) return false;
@@ -184,7 +184,7 @@ class SolverProcess::Impl {
   Impl(const fast::Method& method, const SolverProcessOptions& options)
       : method_(method), options_(options) {}
 
-  SolverRun solve(const Queries& queries, std::span<fast::Answer> answers,
+  SolverRun solve(const AnyQueries& queries, std::span<fast::Answer> answers,
                   const fast::MethodOptions& method_options, const SolverDeadlines& deadlines) {
     deadlines_ = deadlines;
     run_ = {};
@@ -231,7 +231,7 @@ class SolverProcess::Impl {
   }
 
   /// Answers as many queries as fit into the shared memory, from number `offset` of all on.
-  void solve_part(const Queries& queries, std::span<fast::Answer> answers, std::size_t offset) {
+  void solve_part(const AnyQueries& queries, std::span<fast::Answer> answers, std::size_t offset) {
     std::ranges::copy(queries.numbers, memory_->numbers.begin());
     std::ranges::fill(std::span(memory_->has_thrown).first(answers.size()), false);
     answers_ = answers;
@@ -408,7 +408,7 @@ SolverProcess::SolverProcess(const fast::Method& method, const SolverProcessOpti
 
 SolverProcess::~SolverProcess() = default;
 
-SolverRun SolverProcess::solve(const Queries& queries, std::span<fast::Answer> answers,
+SolverRun SolverProcess::solve(const AnyQueries& queries, std::span<fast::Answer> answers,
                                const fast::MethodOptions& method_options,
                                const SolverDeadlines& deadlines) {
   return impl_->solve(queries, answers, method_options, deadlines);

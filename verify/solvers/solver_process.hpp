@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "fast/method.hpp"
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/base/deadline.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/solvers/child_process.hpp"
@@ -83,7 +83,7 @@ class SolverProcess {
   /// fails otherwise.
   /// \pre as many answers as queries.
   /// \throws std::system_error if the system has no memory, process or temporary folder left.
-  [[nodiscard]] SolverRun solve(const Queries& queries, std::span<fast::Answer> answers,
+  [[nodiscard]] SolverRun solve(const AnyQueries& queries, std::span<fast::Answer> answers,
                                 const fast::MethodOptions& method_options,
                                 const SolverDeadlines& deadlines = {});
 

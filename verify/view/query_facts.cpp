@@ -21,6 +21,7 @@
 #include "touchstone/certificate_text.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
+#include "verify/base/any_decision.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/judge/terms.hpp"
@@ -77,7 +78,7 @@ nlohmann::json numbers(std::span<const double> values) {
 
 /// Adds `coordinates`; for curves `control`, and `weights` if they are rational.
 void add_points(const base::AnyQuery& query, nlohmann::json& facts) {
-  const QueryShape& shape = query.shape();
+  const AnyShape& shape = query.shape();
   if (shape.is_straight()) {
     facts["coordinates"] = numbers(query.numbers());
     return;
@@ -110,7 +111,7 @@ nlohmann::json truth_facts(const exact::Decision& verdict) {
 
 nlohmann::json approach_facts(const ViewedQuery& viewed) {
   if (!viewed.with_approach || !viewed.query.shape().is_straight()) return {};
-  const auto approach = nearest_approach(viewed.query.kind(), viewed.query.straight());
+  const auto approach = nearest_approach(viewed.query.kind().contact(), viewed.query.straight());
   if (!approach) return {};
   nlohmann::json facts = moment(approach->time);
   facts["above"] = number(approach->above);
@@ -121,7 +122,7 @@ nlohmann::json approach_facts(const ViewedQuery& viewed) {
 /// The oracle's own certificate. \return nothing where it is beyond the format's limits
 std::string proof_of(const ViewedQuery& viewed, const exact::Decision& verdict) {
   try {
-    return exact::certificate_stream(exact::prove(viewed.query.queries(), 0, verdict),
+    return exact::certificate_stream(base::prove(viewed.query.queries(), 0, verdict),
                                      io::printable(viewed.label));
   } catch (const exact::CertificateLimitError&) {
     return {};
@@ -154,7 +155,7 @@ std::vector<judge::Fault> faults_of(const judge::GivenAnswer& given,
   const judge::GroundTruth truth =
       asked == viewed.query
           ? judged.truth
-          : judge::truth_of(0, exact::decide(question.query, 0, viewed.separation));
+          : judge::truth_of(0, base::decide(question.query, 0, viewed.separation));
   return judge::judge(question, truth, given.answer, standard, failure);
 }
 
@@ -203,8 +204,7 @@ nlohmann::json answers_of(const Judged& judged, std::span<const judge::GivenAnsw
 }  // namespace
 
 nlohmann::json query_facts(const ViewedQuery& viewed, std::span<const judge::GivenAnswer> asked) {
-  require_contact(viewed.query.kind());
-  const exact::Decision verdict = exact::decide(viewed.query.queries(), 0, viewed.separation);
+  const exact::Decision verdict = base::decide(viewed.query.queries(), 0, viewed.separation);
   nlohmann::json notes = nlohmann::json::array();
   for (const std::string& note : viewed.notes) notes.push_back(io::printable(note));
   nlohmann::json facts{
@@ -227,13 +227,13 @@ namespace {
 std::uint64_t bits_of(double distance) { return std::bit_cast<std::uint64_t>(distance); }
 double distance_of(std::uint64_t bits) { return std::bit_cast<double>(bits); }
 
-exact::Decision at_distance(Kind kind, const Query& query, std::uint64_t bits) {
+exact::Decision at_distance(ContactKind kind, const Query& query, std::uint64_t bits) {
   return exact::decide(kind, query, {.distance = distance_of(bits), .norm = Norm::l2});
 }
 
 }  // namespace
 
-std::optional<NearestApproach> nearest_approach(Kind kind, const Query& query) {
+std::optional<NearestApproach> nearest_approach(ContactKind kind, const Query& query) {
   if (exact::decide(kind, query).collides()) return std::nullopt;
   std::uint64_t above = 0;
   std::uint64_t at_most = bits_of(std::numeric_limits<double>::max());
@@ -305,14 +305,14 @@ std::string_view claim_text(checker::Claim claim) {
   }
 }
 
-Kind kind_of(checker::Kind kind) {
-  if (kind == checker::Kind::tetrahedron) return Kind::tetrahedron;
-  return kind == checker::Kind::edge_edge ? Kind::edge_edge : Kind::vertex_face;
+AnyKind kind_of(checker::Kind kind) {
+  if (kind == checker::Kind::tetrahedron) return CellKind::tetrahedron;
+  return kind == checker::Kind::edge_edge ? ContactKind::edge_edge : ContactKind::vertex_face;
 }
 
 /// \throws std::invalid_argument if curves that are not constant differ in degree
 base::AnyQuery query_of(const checker::Query& query) {
-  QueryShape shape{.kind = kind_of(query.kind)};
+  AnyShape shape{.kind = kind_of(query.kind)};
   for (const checker::Curve& curve : query.points) {
     shape.degree = std::max(shape.degree, curve.control.size() - 1);
     shape.is_rational = shape.is_rational || !curve.weights.empty();

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "touchstone/algebraic_number.hpp"
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/judge/judgement.hpp"
 #include "verify/view/viewed_query.hpp"
 
@@ -42,7 +42,7 @@ struct NearestApproach {
 
 /// Empty if the query collides, or the distance is greater than every double.
 /// \throws std::domain_error if a coordinate is NaN or infinite.
-[[nodiscard]] std::optional<NearestApproach> nearest_approach(Kind kind, const Query& query);
+[[nodiscard]] std::optional<NearestApproach> nearest_approach(ContactKind kind, const Query& query);
 
 // The contents of a certificate for a view: its query, and the subintervals of time with their
 // separating directions. The checker (exact/checker/) reads and checks it, also if another program

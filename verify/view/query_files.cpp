@@ -44,9 +44,9 @@ class Selection {
   }
   /// True if nothing more can be selected.
   [[nodiscard]] bool is_complete() const { return queries_.size() >= wanted(); }
-  /// \throws std::invalid_argument if it is about an element.
+  /// \throws std::invalid_argument if it is about a cell.
   void add(ViewedQuery query) {
-    if (is_element(query.query.kind())) {
+    if (query.query.kind().is_cell()) {
       throw std::invalid_argument(fmt::format(
           "view takes vertex-face and edge-edge alone, not a {}: name others by --index",
           to_string(query.query.kind())));
@@ -107,7 +107,7 @@ double number_of(const nlohmann::json& json) {
   return value;
 }
 
-base::AnyQuery straight_from(const nlohmann::json& coordinates, Kind kind) {
+base::AnyQuery straight_from(const nlohmann::json& coordinates, AnyKind kind) {
   if (!coordinates.is_array() || coordinates.size() != coordinate_count) {
     throw std::invalid_argument("coordinates must be a list of 24 numbers");
   }
@@ -119,12 +119,12 @@ base::AnyQuery straight_from(const nlohmann::json& coordinates, Kind kind) {
 }
 
 /// The curves of `control` and `weights` in a page's form (query_facts).
-base::AnyQuery curves_from(const nlohmann::json& json, Kind kind) {
+base::AnyQuery curves_from(const nlohmann::json& json, AnyKind kind) {
   const nlohmann::json& control = json.at("control");
   if (!control.is_array() || control.size() < 2 || control.size() > greatest_degree + 1) {
     throw std::invalid_argument("control must be a list for each of 2 to 9 control points");
   }
-  const QueryShape shape{kind, control.size() - 1, json.contains("weights")};
+  const AnyShape shape{kind, control.size() - 1, json.contains("weights")};
   std::vector<double> numbers;
   for (std::size_t j = 0; j < control.size(); ++j) {
     for (std::size_t i = 0; i < moving_points; ++i) {
@@ -263,7 +263,7 @@ double parse_hexadecimal(const std::string& text) {
 }  // namespace
 
 ViewedQuery query_from_json(const nlohmann::json& json, std::string label,
-                            std::optional<Kind> kind) {
+                            std::optional<AnyKind> kind) {
   ViewedQuery query{.label = std::move(label)};
   if (const auto named = json.find("kind"); named != json.end()) {
     kind = kind_from_string(named->get<std::string>());

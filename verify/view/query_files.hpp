@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/view/viewed_query.hpp"
 
 namespace touchstone::verify::view {
@@ -33,14 +33,14 @@ struct QueryFileOptions {
   /// The maximum number of queries.
   std::size_t most = 100;
   /// The kind of queries whose file does not specify it.
-  std::optional<Kind> kind = std::nullopt;
+  std::optional<AnyKind> kind = std::nullopt;
   /// Round coordinates of datasets that are not doubles to the nearest double.
   bool round = false;
 };
 
 /// Reads the queries.
 /// \throws DatasetError if the file's format is unknown, it cannot be read or is in error, it has
-/// none of the requested queries or one about an element, or the kind is unknown.
+/// none of the requested queries or one about a cell, or the kind is unknown.
 [[nodiscard]] std::vector<ViewedQuery> read_queries(const std::filesystem::path& path,
                                                     const QueryFileOptions& options);
 
@@ -48,7 +48,7 @@ struct QueryFileOptions {
 /// \param kind of a query that does not specify it
 /// \throws std::logic_error or nlohmann::json::exception if it is none.
 [[nodiscard]] ViewedQuery query_from_json(const nlohmann::json& json, std::string label,
-                                          std::optional<Kind> kind = std::nullopt);
+                                          std::optional<AnyKind> kind = std::nullopt);
 
 /// The double nearest to a number as text: decimal, hexadecimal ("0x1.8p-3"), or a fraction of two
 /// decimals.

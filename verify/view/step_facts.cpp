@@ -63,14 +63,14 @@ std::string array_text(const std::vector<std::array<std::int32_t, count>>& eleme
 }
 
 /// The vertices of an element at rest.
-std::vector<std::int32_t> vertices_of(const mesh::Mesh& mesh, fast::ElementKind kind,
+std::vector<std::int32_t> vertices_of(const mesh::Mesh& mesh, fast::PrimitiveKind kind,
                                       std::int32_t number) {
   const auto as_list = [](const auto& element) {
     return std::vector<std::int32_t>(element.begin(), element.end());
   };
   const auto i = static_cast<std::size_t>(number);
-  if (kind == fast::ElementKind::face) return as_list(mesh.faces[i]);
-  return kind == fast::ElementKind::edge ? as_list(mesh.edges[i]) : std::vector{number};
+  if (kind == fast::PrimitiveKind::face) return as_list(mesh.faces[i]);
+  return kind == fast::PrimitiveKind::edge ? as_list(mesh.edges[i]) : std::vector{number};
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ std::vector<ViewedQuery> first_queries(const ViewedStep& step, std::size_t most)
   for (std::size_t i = 0; i < std::min(most, step.collisions.size()); ++i) {
     queries.push_back(
         {.label = fmt::format("{}: {}", step.label, pair_text(step.collisions[i])),
-         .query = base::AnyQuery(fast::Step::kind_of(step.collisions[i].kind), step.queries[i]),
+         .query = base::AnyQuery(decided_as(step.collisions[i].kind), step.queries[i]),
          .separation = step.separations[i]});
   }
   return queries;
@@ -119,7 +119,7 @@ nlohmann::json step_facts(const ViewedStep& step) {
   nlohmann::json pairs = nlohmann::json::array();
   for (std::size_t i = 0; i < std::min(most_listed_pairs, step.collisions.size()); ++i) {
     const fast::StepCollision& collision = step.collisions[i];
-    pairs.push_back({{"kind", to_string(fast::Step::kind_of(collision.kind))},
+    pairs.push_back({{"kind", to_string(decided_as(collision.kind))},
                      {"name", pair_text(collision)},
                      {"points", step.points[i]},
                      {"min_separation", step.separations[i].distance},

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/base/any_query.hpp"
 #include "verify/judge/judgement.hpp"
 

@@ -58,7 +58,7 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
                        Eigen::ConstRef<ipc::VectorMax3d> p0_t1,
                        Eigen::ConstRef<ipc::VectorMax3d> p1_t1, double& toi,
                        const double min_distance = 0.0, const double tmax = 1.0) const override {
-    return query_ccd(Kind::vertex_face,
+    return query_ccd(ContactKind::vertex_face,
                      query(p0_t0, p1_t0, p1_t0, p1_t0, p0_t1, p1_t1, p1_t1, p1_t1), toi,
                      min_distance, tmax);
   }
@@ -70,8 +70,9 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
                       Eigen::ConstRef<ipc::VectorMax3d> e0_t1,
                       Eigen::ConstRef<ipc::VectorMax3d> e1_t1, double& toi,
                       const double min_distance = 0.0, const double tmax = 1.0) const override {
-    return query_ccd(Kind::vertex_face, query(p_t0, e0_t0, e1_t0, e0_t0, p_t1, e0_t1, e1_t1, e0_t1),
-                     toi, min_distance, tmax);
+    return query_ccd(ContactKind::vertex_face,
+                     query(p_t0, e0_t0, e1_t0, e0_t0, p_t1, e0_t1, e1_t1, e0_t1), toi, min_distance,
+                     tmax);
   }
 
   bool point_triangle_ccd(
@@ -80,8 +81,9 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
       Eigen::ConstRef<Eigen::Vector3d> p_t1, Eigen::ConstRef<Eigen::Vector3d> t0_t1,
       Eigen::ConstRef<Eigen::Vector3d> t1_t1, Eigen::ConstRef<Eigen::Vector3d> t2_t1, double& toi,
       const double min_distance = 0.0, const double tmax = 1.0) const override {
-    return query_ccd(Kind::vertex_face, query(p_t0, t0_t0, t1_t0, t2_t0, p_t1, t0_t1, t1_t1, t2_t1),
-                     toi, min_distance, tmax);
+    return query_ccd(ContactKind::vertex_face,
+                     query(p_t0, t0_t0, t1_t0, t2_t0, p_t1, t0_t1, t1_t1, t2_t1), toi, min_distance,
+                     tmax);
   }
 
   bool edge_edge_ccd(
@@ -90,13 +92,13 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
       Eigen::ConstRef<Eigen::Vector3d> ea0_t1, Eigen::ConstRef<Eigen::Vector3d> ea1_t1,
       Eigen::ConstRef<Eigen::Vector3d> eb0_t1, Eigen::ConstRef<Eigen::Vector3d> eb1_t1, double& toi,
       const double min_distance = 0.0, const double tmax = 1.0) const override {
-    return query_ccd(Kind::edge_edge,
+    return query_ccd(ContactKind::edge_edge,
                      query(ea0_t0, ea1_t0, eb0_t0, eb1_t0, ea0_t1, ea1_t1, eb0_t1, eb1_t1), toi,
                      min_distance, tmax);
   }
 
   /// The same for a query of this library, such as one of a step's (touchstone/step.hpp).
-  bool query_ccd(Kind kind, const Query& query, double& toi, double min_distance = 0.0,
+  bool query_ccd(ContactKind kind, const Query& query, double& toi, double min_distance = 0.0,
                  double tmax = 1.0) const {
     require_valid(min_distance, tmax);
     toi = 0.0;

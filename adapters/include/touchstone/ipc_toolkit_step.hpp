@@ -127,13 +127,13 @@ namespace touchstone::adapters {
   }
   std::atomic<double> first = std::numeric_limits<double>::infinity();
   step.candidates([&](const fast::StepCandidates& some) {
-    if (is_flat && some.kind == fast::PairKind::edge_edge) return;
+    if (is_flat && some.kind == ContactKind::edge_edge) return;
     for (const fast::IndexPair& pair : some.pairs) {
       // The margin makes the result independent of the order of the pairs.
       const double tmax = (std::min)(until, first.load() * (1.0 + 0x1p-38));
       double toi = 0.0;
-      if (!narrow_phase.query_ccd(fast::Step::kind_of(some.kind), step.query_of(some.kind, pair),
-                                  toi, min_distance, tmax)) {
+      if (!narrow_phase.query_ccd(decided_as(some.kind), step.query_of(some.kind, pair), toi,
+                                  min_distance, tmax)) {
         continue;
       }
       double known = first.load();

@@ -46,15 +46,15 @@ extern "C" {
 #define TOUCHSTONE_API
 #endif
 
-/// The primitives of a query, with its points in their order, or of a pair of a mesh; or the
-/// element of a query about inversion.
+/// The two primitives of a query, with its points in their order, or of a pair of a mesh; or the
+/// kind of a cell. Points that a kind does not have have no effect.
 enum TouchstoneKind {
   TOUCHSTONE_VERTEX_FACE = 0,    ///< v, f0, f1, f2; of a mesh: a vertex and a face
   TOUCHSTONE_EDGE_EDGE = 1,      ///< ea0, ea1, eb0, eb1; of a mesh: the smaller number first
-  TOUCHSTONE_VERTEX_EDGE = 2,    ///< of a mesh only: a codimensional point and edge
-  TOUCHSTONE_VERTEX_VERTEX = 3,  ///< of a mesh only: codimensional points, the smaller number first
-  TOUCHSTONE_TETRAHEDRON = 4,    ///< an element a, b, c, d; det(b-a, c-a, d-a) > 0 upright
-  TOUCHSTONE_PLANE_TRIANGLE = 5  ///< an element: x and y of a, b, c; the rest has no effect
+  TOUCHSTONE_VERTEX_EDGE = 2,    ///< v, e0, e1; of a mesh: a codimensional point and edge
+  TOUCHSTONE_VERTEX_VERTEX = 3,  ///< v, w; of a mesh: codimensional points, the smaller first
+  TOUCHSTONE_TETRAHEDRON = 4,    ///< a cell a, b, c, d; det(b-a, c-a, d-a) > 0 upright
+  TOUCHSTONE_PLANE_TRIANGLE = 5  ///< a cell: x and y of a, b, c; the rest has no effect
 };
 
 /// Norm of the distance of two points.
@@ -125,10 +125,8 @@ typedef struct TouchstoneDistance {
 } TouchstoneDistance;
 
 /// Decides `count` queries. A query of which a coordinate that has an effect is NaN or
-/// infinite has the verdict TOUCHSTONE_ERROR; the others are decided. An element collides if its
-/// volume, or area in the plane, is 0 or negative at some time; its min_separation must be 0, u and
-/// v are NaN, and toi_upper is 0 iff it is flat or inverted at t=0.
-/// \param kind of all queries; a query has none of TOUCHSTONE_VERTEX_EDGE and _VERTEX_VERTEX
+/// infinite has the verdict TOUCHSTONE_ERROR; the others are decided.
+/// \param kind of all queries, one of contact
 /// \param coordinates 24 for each query: its four points at t=0, then the same at t=1
 /// \param options null for the default ones
 /// \param impacts `count` of them, for the results
@@ -136,9 +134,28 @@ TOUCHSTONE_API int32_t touchstone_solve(int32_t kind, size_t count, const double
                                         const TouchstoneOptions* options,
                                         TouchstoneImpact* impacts);
 
+/// The answer about a cell.
+typedef struct TouchstoneInversion {
+  int32_t verdict;   ///< TOUCHSTONE_YES: its volume is 0 or negative at some time
+  int32_t start;     ///< the sign of its volume at t=0: 1, 0 (flat) or −1 (inverted)
+  double toi_lower;  ///< with yes: before the first such time, or 0 if that is 0
+  double toi_upper;  ///< with yes: not before that time
+} TouchstoneInversion;
+
+/// Decides whether `count` cells invert: at some time the volume, or the area in the plane, is 0 or
+/// negative. A cell of which a coordinate that has an effect is NaN or infinite has the verdict
+/// TOUCHSTONE_ERROR.
+/// \param kind of all cells, one of these
+/// \param coordinates as above
+/// \param options null for the default ones; without a min_separation
+/// \param inversions `count` of them, for the results
+TOUCHSTONE_API int32_t touchstone_inversions(int32_t kind, size_t count, const double* coordinates,
+                                             const TouchstoneOptions* options,
+                                             TouchstoneInversion* inversions);
+
 /// The distances of the primitives of `count` queries at the time t, in [0,1]. 0 iff they have a
 /// common point.
-/// \param kind and coordinates as above, but no element; all finite, else the status is
+/// \param kind and coordinates as in touchstone_solve; all finite, else the status is
 /// TOUCHSTONE_NOT_FINITE
 /// \param max_threads maximum number of threads; 0: one for each core that the process may use
 /// \param distances `count` of them, for the results
@@ -147,6 +164,13 @@ TOUCHSTONE_API int32_t touchstone_distances(int32_t kind, size_t count, const do
                                             TouchstoneDistance* distances);
 
 // ---- Steps --------------------------------------------------------------------------------------
+
+/// Cells of a mesh, whose volume, or area in the plane of x and y, is to stay positive.
+typedef struct TouchstoneCells {
+  int32_t kind;  ///< of all: TOUCHSTONE_TETRAHEDRON or TOUCHSTONE_PLANE_TRIANGLE
+  size_t count;
+  const int32_t* vertices;  ///< 4 or 3 for each
+} TouchstoneCells;
 
 /// A mesh before and after a step. Unused members are 0 (null pointers).
 typedef struct TouchstoneMesh {
@@ -180,12 +204,9 @@ typedef struct TouchstoneMesh {
   size_t separations;
   const int32_t* separated_groups;  ///< 2 · separations; each pair once, in either order
   const double* group_separations;  ///< these distances, not negative
-  /// Elements whose volume, or area in the plane of x and y, is to stay positive. They do not
-  /// collide.
-  size_t tetrahedra;
-  const int32_t* tetrahedron_vertices;  ///< 4 · tetrahedra
-  size_t plane_triangles;
-  const int32_t* plane_triangle_vertices;  ///< 3 · plane_triangles
+  /// The number of lists of cells, which do not collide.
+  size_t cell_lists;
+  const TouchstoneCells* cells;
   /// With a degree, from 1 to 8, the vertices move on Bézier curves, and before and after are not
   /// read. Functions that need straight lines then fail: of distances, contacts and step sizes.
   int32_t degree;
@@ -222,10 +243,10 @@ typedef struct TouchstoneCollision {
   double v;
 } TouchstoneCollision;
 
-/// An element of a mesh that inverts.
+/// A cell of a mesh that inverts.
 typedef struct TouchstoneStepInversion {
-  int32_t kind;      ///< TOUCHSTONE_TETRAHEDRON or TOUCHSTONE_PLANE_TRIANGLE
-  int32_t element;   ///< its number among those of its kind
+  int32_t kind;      ///< as in TouchstoneCells
+  int32_t cell;      ///< its number among those of its kind
   int32_t start;     ///< the sign of its volume at t=0: 1, 0 (flat) or −1 (inverted)
   double toi_lower;  ///< before the first time at which it is 0 or negative, or 0 if that is 0
   double toi_upper;  ///< not before that time
@@ -243,7 +264,7 @@ TOUCHSTONE_API void touchstone_step_free(TouchstoneStep* step);
 /// Writes 1 if the step is free, of collisions and inversions, else 0.
 TOUCHSTONE_API int32_t touchstone_step_is_free(const TouchstoneStep* step, int32_t* is_free);
 
-/// The earliest impact, with the smallest toi_lower and toi_upper of all pairs and elements;
+/// The earliest impact, with the smallest toi_lower and toi_upper of all pairs and cells;
 /// verdict TOUCHSTONE_NO and NaN if the step is free. u and v are NaN.
 TOUCHSTONE_API int32_t touchstone_step_earliest(const TouchstoneStep* step,
                                                 TouchstoneImpact* impact);
@@ -253,7 +274,7 @@ TOUCHSTONE_API int32_t touchstone_step_collisions(TouchstoneStep* step,
                                                   const TouchstoneCollision** collisions,
                                                   size_t* count);
 
-/// All elements that invert, tetrahedra first, in the order of their numbers.
+/// All cells that invert, tetrahedra first, in the order of their numbers.
 TOUCHSTONE_API int32_t touchstone_step_inversions(TouchstoneStep* step,
                                                   const TouchstoneStepInversion** inversions,
                                                   size_t* count);
@@ -312,17 +333,17 @@ enum TouchstoneStartDistance {
 /// The reason for a step size.
 enum TouchstoneLimitReason {
   TOUCHSTONE_WHOLE = 0,       ///< the whole step is allowed
-  TOUCHSTONE_LIMITED = 1,     ///< a pair or an element limits the step
+  TOUCHSTONE_LIMITED = 1,     ///< a pair or a cell limits the step
   TOUCHSTONE_IN_CONTACT = 2,  ///< a pair is in contact at the start; the step size is 0
   TOUCHSTONE_TOO_SMALL = 3,   ///< the step size would be below the least doubles; it is 0
-  TOUCHSTONE_INVERTED = 4     ///< an element is flat or inverted at the start; the step size is 0
+  TOUCHSTONE_INVERTED = 4     ///< a cell is flat or inverted at the start; the step size is 0
 };
 
 typedef struct TouchstoneLineSearchOptions {
   size_t size;             ///< bytes of this structure, sizeof(TouchstoneLineSearchOptions)
   int32_t norm;            ///< one of TouchstoneNorm
   int32_t start_distance;  ///< one of TouchstoneStartDistance
-  double kept_volume;  ///< the part of its volume at t=0 of which an element keeps more, in [0,1)
+  double kept_volume;      ///< the part of its volume at t=0 of which a cell keeps more, in [0,1)
 } TouchstoneLineSearchOptions;
 
 typedef struct TouchstoneLineSearchLimit {
@@ -331,8 +352,8 @@ typedef struct TouchstoneLineSearchLimit {
   TouchstoneDistance distance;  ///< the least distance at the start; infinity if there are no pairs
   const TouchstoneCollision* pairs;           ///< the pairs that limit the step
   size_t count;                               ///< the number of pairs
-  const TouchstoneStepInversion* inversions;  ///< the elements that limit the step
-  size_t inversion_count;                     ///< the number of elements
+  const TouchstoneStepInversion* inversions;  ///< the cells that limit the step
+  size_t inversion_count;                     ///< the number of cells
 } TouchstoneLineSearchLimit;
 
 /// The default options: TOUCHSTONE_L2, TOUCHSTONE_OF_SCENE, 0.
@@ -344,7 +365,7 @@ static inline TouchstoneLineSearchOptions touchstone_default_line_search_options
 
 /// The greatest step size, rounded down by at most the step's toi_tolerance, up to which all
 /// primitives, with radii thick ones, stay at least p times as far apart as at the start, and all
-/// elements keep their volumes. The separation of the step has no effect.
+/// cells keep their volumes. The separation of the step has no effect.
 /// \param p more than 0 and at most 1 − 2^-50
 /// \param options null for the default ones
 TOUCHSTONE_API int32_t touchstone_step_line_search_limit(TouchstoneStep* step, double p,

@@ -16,9 +16,9 @@
 ///   // A vertex moves towards a resting triangle, and stops before it.
 ///   const Query query{{1, 1, 3, 0, 0, 0, 4, 0, 0, 0, 4, 0,
 ///                      1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
-///   const exact::Decision decision = exact::decide(Kind::vertex_face, query);
-///   const exact::Certificate certificate = exact::prove(Kind::vertex_face, query, decision);
-///   std::cout << exact::certificate_stream(certificate, "a vertex above a face");
+///   const exact::Decision decision = exact::decide(ContactKind::vertex_face, query);
+///   const exact::Certificate certificate = exact::prove(ContactKind::vertex_face, query,
+///   decision); std::cout << exact::certificate_stream(certificate, "a vertex above a face");
 /// }
 /// // claim no_collision
 /// // separate 0 1 face +
@@ -29,7 +29,7 @@
 ///   throughout;
 ///   - collision: a contact;
 ///   - time of impact in (lower, upper]: a contact there, and subintervals of [0,lower].
-/// Of an element of a mesh (touchstone/element.hpp) the same is said with inversion in the place of
+/// Of a cell (touchstone/cell.hpp) the same is said with inversion in the place of
 /// collision: a contact is then a time at which the volume is not positive, that is, at which its
 /// first point touches the plane of the others, or is behind it.
 ///
@@ -53,6 +53,7 @@
 #include <variant>
 #include <vector>
 
+#include "touchstone/any_kind.hpp"
 #include "touchstone/curved_query.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
@@ -133,7 +134,7 @@ struct AxesContact {
   friend bool operator==(const AxesContact&, const AxesContact&) = default;
 };
 
-/// The volume is 0 or negative, of an element.
+/// The volume is 0 or negative, of a cell.
 struct PlaneContact {
   friend bool operator==(const PlaneContact&, const PlaneContact&) = default;
 };
@@ -155,13 +156,14 @@ struct ContactProof {
 
 // ---- The certificate ----------------------------------------------------------------------------
 
-/// The kinds of claims about a query; of an element: no inversion, inversion, time of inversion.
+/// The kinds of claims about a query; of a cell: no inversion, inversion, time of inversion.
 enum class Claim : std::uint8_t { no_collision, collision, time_of_impact };
 
 /// A claim about a query with its proof.
 struct Certificate {
-  /// A triangle in the plane is proved as its tetrahedron (touchstone/element.hpp).
-  Kind kind = Kind::vertex_face;
+  /// vertex_face, edge_edge or tetrahedron: other kinds are proved as one of these (decided_as,
+  /// to_tetrahedron).
+  AnyKind kind = ContactKind::vertex_face;
   std::variant<Query, CurvedQuery> query{};
   Separation separation{};
   Claim claim = Claim::no_collision;
@@ -202,13 +204,13 @@ struct ProveOptions {
 /// \throws CertificateLimitError if the certificate would exceed number_limit or subinterval_limit.
 /// exact/certificate/separation_intervals.hpp states for which queries the break points stay within
 /// it; the interval of a contact needs no more bits.
-[[nodiscard]] Certificate prove(Kind kind, const Query& query, const Decision& decision,
+[[nodiscard]] Certificate prove(ContactKind kind, const Query& query, const Decision& decision,
                                 const ProveOptions& options = {});
 
 /// The same on curves.
 /// \throws std::invalid_argument also as decide, if a trajectory is not valid.
-[[nodiscard]] Certificate prove(Kind kind, const CurvedQuery& query, const Decision& decision,
-                                const ProveOptions& options = {});
+[[nodiscard]] Certificate prove(ContactKind kind, const CurvedQuery& query,
+                                const Decision& decision, const ProveOptions& options = {});
 
 /// The same for query i, decided by decide(queries, i, decision.separation).
 [[nodiscard]] Certificate prove(const Queries& queries, std::size_t i, const Decision& decision,
@@ -219,5 +221,17 @@ struct ProveOptions {
 [[nodiscard]] std::vector<Certificate> prove(const Queries& queries,
                                              std::span<const Decision> decisions,
                                              const ProveOptions& options = {});
+
+/// The proof of the first inversion of a cell, or that there is none.
+/// \param first first_inversion(kind, cell) \throws as above
+[[nodiscard]] Certificate prove_inversion(CellKind kind, const Query& cell,
+                                          const std::optional<AlgebraicNumber>& first,
+                                          const ProveOptions& options = {});
+[[nodiscard]] Certificate prove_inversion(CellKind kind, const CurvedQuery& cell,
+                                          const std::optional<AlgebraicNumber>& first,
+                                          const ProveOptions& options = {});
+[[nodiscard]] Certificate prove_inversion(const Cells& cells, std::size_t i,
+                                          const std::optional<AlgebraicNumber>& first,
+                                          const ProveOptions& options = {});
 
 }  // namespace touchstone::exact

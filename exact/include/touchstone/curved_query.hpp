@@ -28,8 +28,17 @@ struct Trajectory {
 /// The four points in the order of Query, each on a curve of its own degree.
 using CurvedQuery = std::array<Trajectory, moving_points>;
 
-/// Query i with a trajectory for each point.
-[[nodiscard]] inline CurvedQuery to_curved(const Queries& queries, std::size_t i) {
+/// The query that decides one of this kind.
+[[nodiscard]] inline CurvedQuery decided_query(ContactKind kind, CurvedQuery query) {
+  for (std::size_t point = 0; point < query.size(); ++point) {
+    query[point] = query[decided_point(kind, point)];
+  }
+  return query;
+}
+
+/// Query or cell i with a trajectory for each point.
+template <class Kind>
+[[nodiscard]] CurvedQuery to_curved(const Batch<Kind>& queries, std::size_t i) {
   CurvedQuery result;
   const std::span<const double> all = queries.row(i);
   const std::size_t size = queries.numbers_of_point();
@@ -43,7 +52,7 @@ using CurvedQuery = std::array<Trajectory, moving_points>;
 
 /// The same query on curves of degree 1.
 [[nodiscard]] inline CurvedQuery to_curved(const Query& query) {
-  return to_curved(Queries(Kind::vertex_face, {&query, 1}), 0);
+  return to_curved(Queries(ContactKind::vertex_face, {&query, 1}), 0);
 }
 
 }  // namespace touchstone

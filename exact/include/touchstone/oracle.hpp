@@ -15,7 +15,7 @@
 ///   // v, f0, f1, f2 at t=0, then at t=1.
 ///   const Query query{{1, 1, 1,  0, 0, 0, 4, 0, 0, 0, 4, 0,
 ///                      1, 1, -2, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
-///   const exact::Decision decision = exact::decide(Kind::vertex_face, query);
+///   const exact::Decision decision = exact::decide(ContactKind::vertex_face, query);
 ///   if (!decision.collides()) return 1;
 ///   const auto [u, v] = exact::contact_parameters(decision, exact::power_of_two(-60));
 ///   std::printf("at exactly 1/3: %d, at u = 1/4: %d\n", *decision.toi == exact::Rational(1, 3),
@@ -26,7 +26,7 @@
 ///                             {.control = {{0, 0, 0}}},
 ///                             {.control = {{4, 0, 0}}},
 ///                             {.control = {{0, 4, 0}}}}};
-///   const exact::Decision touch = exact::decide(Kind::vertex_face, curved);
+///   const exact::Decision touch = exact::decide(ContactKind::vertex_face, curved);
 ///   std::printf("at exactly 1/2: %d\n", *touch.toi == exact::Rational(1, 2));
 /// }
 /// // at exactly 1/3: 1, at u = 1/4: 1
@@ -38,7 +38,7 @@
 /// arithmetic on scaled coordinates, without rounding and without filters. docs/theory.md, sections
 /// 2, 3 and 10. All functions are thread-safe.
 ///
-/// **Elements.** *Theorem.* Let V be the signed volume (touchstone/element.hpp), a continuous
+/// **Cells.** *Theorem.* Let V be the signed volume (touchstone/cell.hpp), a continuous
 /// function of time. If V(0) ≤ 0, the first time with V ≤ 0 is 0. Otherwise it is the least root of
 /// V in [0,1], and there is none if V has no root there. Proof. Before its least root a continuous
 /// function has the sign that it has at 0. ∎
@@ -51,6 +51,7 @@
 #include <vector>
 
 #include "touchstone/algebraic_number.hpp"
+#include "touchstone/cell.hpp"
 #include "touchstone/curved_query.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/polynomial.hpp"
@@ -88,18 +89,18 @@ struct Decision {
 };
 
 /// Decides a query exactly, independent of the floating-point environment (rounding mode, flushed
-/// subnormals). An element collides if it inverts: its toi is the first time at which its volume is
-/// 0 or negative, 0 iff it is so at t=0.
+/// subnormals).
 /// \throws std::domain_error if a coordinate is NaN or infinite; std::invalid_argument if the
-/// separation is not valid, or not 0 for an element.
-[[nodiscard]] Decision decide(Kind kind, const Query& query, const Separation& separation = {});
+/// separation is not valid.
+[[nodiscard]] Decision decide(ContactKind kind, const Query& query,
+                              const Separation& separation = {});
 
 /// Decides a query whose points move on curves. For curves of degrees up to k, polynomial or of the
 /// same weights, the degree of the toi is at most 3k, or 8k with a separation; the degrees of
 /// further weights are added to k.
 /// \throws std::domain_error if a number is NaN or infinite, or a weight not positive;
 /// std::invalid_argument if a trajectory or the separation is not valid.
-[[nodiscard]] Decision decide(Kind kind, const CurvedQuery& query,
+[[nodiscard]] Decision decide(ContactKind kind, const CurvedQuery& query,
                               const Separation& separation = {});
 
 /// Decides query i. \throws as above, the std::domain_error naming the query.
@@ -109,6 +110,15 @@ struct Decision {
 /// Decides all queries, in this thread. \throws as above.
 [[nodiscard]] std::vector<Decision> decide(const Queries& queries,
                                            const Separation& separation = {});
+
+/// The first time at which the volume of a cell is 0 or negative (touchstone/cell.hpp), 0 iff it is
+/// so at t=0; empty iff the cell does not invert. On straight lines or curves, or of cell i.
+/// \throws std::domain_error if a number that has an effect is NaN or infinite, or a weight not
+/// positive; std::invalid_argument if a trajectory is not valid.
+[[nodiscard]] std::optional<AlgebraicNumber> first_inversion(CellKind kind, const Query& cell);
+[[nodiscard]] std::optional<AlgebraicNumber> first_inversion(CellKind kind,
+                                                             const CurvedQuery& cell);
+[[nodiscard]] std::optional<AlgebraicNumber> first_inversion(const Cells& cells, std::size_t i);
 
 /// The parameters (u,v) of a contact, as the query's F defines them.
 struct ContactParameters {

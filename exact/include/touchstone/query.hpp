@@ -18,10 +18,10 @@
 /// of the domain: the *corners* w_i(t), three for vertex_face, four (a parallelogram, in cyclic
 /// order) for edge_edge. Hence a query collides iff 0 ∈ conv{w_i(t)} for some t ∈ [0,1].
 ///
-/// The four points may also be those of an *element* of a mesh (touchstone/element.hpp): of a
-/// tetrahedron, or of a triangle in the plane. Such a query "collides" iff the element inverts: its
-/// volume is 0 or negative at some t ∈ [0,1], of which its time of impact is the smallest. It has
-/// no F and no separation; require_contact refuses it where these are needed.
+/// A vertex and an edge, or two vertices, are a vertex and a face that has shrunk to them: with the
+/// missing vertices of the face equal to its first one, F has the same roots, at other (u,v).
+///
+/// Cells of a mesh, which invert instead, have kinds of their own (touchstone/cell.hpp).
 ///
 /// **Coordinates that are not finite.** One rule for every function, in C++ and C. A function whose
 /// results have verdicts answers `error` for a query with a coordinate that is NaN or infinite, or
@@ -31,8 +31,8 @@
 /// caller's compiler options have no effect (is_finite).
 ///
 /// All functions are thread-safe. The headers of the target touchstone::query, this one,
-/// curved_query.hpp and element.hpp, are the only ones of exact/ that fast/ includes; they need
-/// nothing but the standard library.
+/// curved_query.hpp, cell.hpp and any_kind.hpp, are the only ones of exact/ that fast/ includes;
+/// they need nothing but the standard library.
 
 #include "touchstone/cxx20.hpp"
 
@@ -46,30 +46,30 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 namespace touchstone {
 
-/// The two primitives of a query, or its element.
-enum class Kind : std::uint8_t {
-  vertex_face,
-  edge_edge,
-  tetrahedron,
-  plane_triangle,  ///< x and y of the first three points; the other coordinates have no effect
+/// The two primitives of a query, or of a pair of a mesh.
+enum class ContactKind : std::uint8_t {
+  vertex_face,    ///< v, f0, f1, f2
+  edge_edge,      ///< ea0, ea1, eb0, eb1; of a mesh: the smaller number first
+  vertex_edge,    ///< v, e0, e1; of a mesh: a codimensional point and a codimensional edge
+  vertex_vertex,  ///< v, w; of a mesh: two codimensional points, the smaller number first
 };
 
-/// All kinds, first those about contact, then those about inversion.
-inline constexpr std::array all_kinds{Kind::vertex_face, Kind::edge_edge, Kind::tetrahedron,
-                                      Kind::plane_triangle};
-inline constexpr std::array contact_kinds{Kind::vertex_face, Kind::edge_edge};
-
-[[nodiscard]] constexpr bool is_element(Kind kind) { return kind >= Kind::tetrahedron; }
+/// The kind of the query that decides one of this kind: vertex_face for all but edge_edge.
+[[nodiscard]] constexpr ContactKind decided_as(ContactKind kind) {
+  return kind == ContactKind::edge_edge ? kind : ContactKind::vertex_face;
+}
 
 /// Number of points that move, and number of points in a query (start and end of each).
 inline constexpr std::size_t moving_points = 4;
 inline constexpr std::size_t query_points = 2 * moving_points;
 
-/// Eight points as 24 contiguous doubles, in the order of the public data: at t=0 then at t=1;
-/// vertex_face: v, f0, f1, f2; edge_edge: ea0, ea1, eb0, eb1; an element: a, b, c, d; x, y, z each.
+/// Eight points as 24 contiguous doubles, in the order of the public data: at t=0 then at t=1, the
+/// points in the order of the kind, or those of a cell; x, y, z each. Points that the kind does not
+/// have are there, too, and have no effect.
 ///
 /// The layout is the file layout of a float64 array of shape (N, 8, 3), so such an array in memory
 /// is a `std::span<const Query>` without a copy. The kind is not stored in it, because all queries
@@ -97,6 +97,27 @@ static_assert(sizeof(Query) == 3 * query_points * sizeof(double));
 static_assert(std::is_trivially_copyable_v<Query> && std::is_standard_layout_v<Query> &&
               std::is_aggregate_v<Query>);
 
+/// The point whose place a point (0..3) has in the query that decides one of this kind: the missing
+/// vertices of a face that has shrunk are its first one.
+[[nodiscard]] constexpr std::size_t decided_point(ContactKind kind, std::size_t point) {
+  const std::size_t first_missing = kind == ContactKind::vertex_edge     ? 3
+                                    : kind == ContactKind::vertex_vertex ? 2
+                                                                         : moving_points;
+  return point < first_missing ? point : 1;
+}
+
+/// The query that decides one of this kind, of the kind decided_as(kind).
+[[nodiscard]] inline Query decided_query(ContactKind kind, const Query& query) {
+  Query result = query;
+  for (std::size_t i = 0; i < query_points; ++i) {
+    const std::size_t end = i / moving_points, point = i % moving_points;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      result.at(end, point, axis) = query.at(end, decided_point(kind, point), axis);
+    }
+  }
+  return result;
+}
+
 /// The greatest degree of a curve.
 inline constexpr std::size_t greatest_degree = 8;
 
@@ -108,12 +129,13 @@ inline void require_degree(std::size_t degree) {
                               (degree == 0 ? "; repeat the control point of a point at rest" : ""));
 }
 
-/// The shape of queries: their primitives, and the Bézier curves that all points move on. A point's
-/// position is x(t) = Σ_j B_j(t) b_j with the Bernstein polynomials B_j(t) = binomial(k, j)
+/// The shape of queries or cells: their kind, and the Bézier curves that all points move on. A
+/// point's position is x(t) = Σ_j B_j(t) b_j with the Bernstein polynomials B_j(t) = binomial(k, j)
 /// (1−t)^(k−j) t^j of degree k, or, with positive weights w_j, Σ_j B_j(t) w_j b_j / Σ_j B_j(t) w_j.
 /// A straight line is a curve of degree 1, the least there is.
-struct QueryShape {
-  Kind kind = Kind::vertex_face;
+template <class Kind>
+struct Shape {
+  Kind kind = {};
   std::size_t degree = 1;
   bool is_rational = false;  ///< Each control point has a weight.
 
@@ -123,51 +145,86 @@ struct QueryShape {
   [[nodiscard]] std::size_t numbers_of_query() const {
     return (degree + 1) * moving_points * numbers_of_point();
   }
-  friend bool operator==(const QueryShape&, const QueryShape&) = default;
+  /// The same of a type of more kinds.
+  template <class Other>
+  requires(std::is_convertible_v<Kind, Other>) operator Shape<Other>()
+      const {  // NOLINT(google-explicit-constructor)
+    return {kind, degree, is_rational};
+  }
+  friend bool operator==(const Shape&, const Shape&) = default;
 };
 
-/// Queries of one shape in an array, by reference.
+/// Queries or cells of one shape in an array, by reference.
 ///
 /// Each has its control points from t=0 to t=1, and at each the four points in the order of Query:
 /// an array of shape (size, degree + 1, 4, 3), or (size, degree + 1, 4, 4) with weights last. On
 /// straight lines that is the layout of an array of Query.
-struct Queries : QueryShape {
+template <class Kind>
+struct Batch : Shape<Kind> {
   std::span<const double> numbers = {};
 
-  Queries() = default;
-  Queries(Kind kind_of_all, std::span<const Query> queries)
-      : QueryShape{.kind = kind_of_all},
+  Batch() = default;
+  Batch(Kind kind_of_all, std::span<const Query> queries)
+      : Shape<Kind>{.kind = kind_of_all},
         numbers(queries.empty() ? nullptr : queries.front().coordinates.data(),
                 queries.size() * 3 * query_points) {}
   /// \throws std::invalid_argument as require_degree, and unless the numbers are those of whole
   /// queries.
-  Queries(const QueryShape& shape, std::span<const double> all) : QueryShape(shape), numbers(all) {
-    require_degree(degree);
-    if (numbers.size() % numbers_of_query() != 0) {
-      throw std::invalid_argument("queries: " + std::to_string(numbers.size()) +
-                                  " numbers are no multiple of " +
-                                  std::to_string(numbers_of_query()) +
-                                  ", the size of a query of degree " + std::to_string(degree));
+  Batch(const Shape<Kind>& shape, std::span<const double> all) : Shape<Kind>(shape), numbers(all) {
+    require_degree(this->degree);
+    if (numbers.size() % this->numbers_of_query() != 0) {
+      throw std::invalid_argument(
+          "queries: " + std::to_string(numbers.size()) + " numbers are no multiple of " +
+          std::to_string(this->numbers_of_query()) + ", the size of a query of degree " +
+          std::to_string(this->degree));
     }
   }
 
-  [[nodiscard]] std::size_t size() const { return numbers.size() / numbers_of_query(); }
+  template <class Other>
+  requires(std::is_convertible_v<Other, Kind>)
+      Batch(const Batch<Other>& other)  // NOLINT(google-explicit-constructor)
+      : Batch(other.as(Kind(other.kind))) {}
+
+  [[nodiscard]] std::size_t size() const { return numbers.size() / this->numbers_of_query(); }
   [[nodiscard]] bool empty() const { return numbers.empty(); }
   /// The numbers of query i.
   [[nodiscard]] std::span<const double> row(std::size_t i) const {
-    return numbers.subspan(i * numbers_of_query(), numbers_of_query());
+    return numbers.subspan(i * this->numbers_of_query(), this->numbers_of_query());
   }
   /// `count` queries from number `first` on.
-  [[nodiscard]] Queries part(std::size_t first, std::size_t count) const {
-    Queries some = *this;
-    some.numbers = numbers.subspan(first * numbers_of_query(), count * numbers_of_query());
+  [[nodiscard]] Batch part(std::size_t first, std::size_t count) const {
+    Batch some = *this;
+    some.numbers =
+        numbers.subspan(first * this->numbers_of_query(), count * this->numbers_of_query());
     return some;
   }
   /// The same queries as an array of Query. \pre is_straight()
   [[nodiscard]] std::span<const Query> straight() const {
     return {reinterpret_cast<const Query*>(numbers.data()), size()};
   }
+  /// The same numbers as those of another kind.
+  template <class Other>
+  [[nodiscard]] Batch<Other> as(Other other) const {
+    return {{other, this->degree, this->is_rational}, numbers};
+  }
 };
+
+using QueryShape = Shape<ContactKind>;
+using Queries = Batch<ContactKind>;
+
+/// The queries that decide these: the same, or with numbers in `memory`.
+[[nodiscard]] inline Queries decided_queries(const Queries& queries, std::vector<double>& memory) {
+  if (decided_as(queries.kind) == queries.kind) return queries;
+  const std::size_t size = queries.numbers_of_point();
+  memory.resize(queries.numbers.size());
+  for (std::size_t i = 0; i < memory.size(); ++i) {
+    const std::size_t point = i / size % moving_points;
+    memory[i] = queries.numbers[i - (point - decided_point(queries.kind, point)) * size];
+  }
+  QueryShape shape = queries;
+  shape.kind = decided_as(queries.kind);
+  return {shape, memory};
+}
 
 /// The same number in double, also for subnormal floats, which a conversion would lose if the
 /// caller's floating-point state takes them for 0.
@@ -211,17 +268,16 @@ inline constexpr std::array<Corner, 4> edge_edge_corners{
     {{0, 2, 0, 0}, {1, 2, 1, 0}, {1, 3, 1, 1}, {0, 3, 0, 1}}};
 
 /// The corners of a kind: v−f0, v−f1, v−f2, or ea0−eb0, ea1−eb0, ea1−eb1, ea0−eb1 in cyclic order.
-/// \pre the kind is one of contact, here and below.
-[[nodiscard]] constexpr std::span<const Corner> corners(Kind kind) {
-  if (kind == Kind::vertex_face) return vertex_face_corners;
-  return edge_edge_corners;
+[[nodiscard]] constexpr std::span<const Corner> corners(ContactKind kind) {
+  if (kind == ContactKind::edge_edge) return edge_edge_corners;
+  return vertex_face_corners;
 }
 
 /// r = w_0, p = w_0 − w_1 and q = w_0 − w_last, so that F = r − u p − v q; each as a pair of points
 /// whose difference it is.
-[[nodiscard]] constexpr std::array<std::array<std::size_t, 2>, 3> affine_vectors(Kind kind) {
-  if (kind == Kind::vertex_face) return {{{0, 1}, {2, 1}, {3, 1}}};
-  return {{{0, 2}, {0, 1}, {3, 2}}};
+[[nodiscard]] constexpr std::array<std::array<std::size_t, 2>, 3> affine_vectors(ContactKind kind) {
+  if (kind == ContactKind::edge_edge) return {{{0, 2}, {0, 1}, {3, 2}}};
+  return {{{0, 1}, {2, 1}, {3, 1}}};
 }
 
 /// Norm of a distance: the greatest absolute component of the difference (linf), or the Euclidean
@@ -264,35 +320,19 @@ struct Separation {
   throw std::invalid_argument("norm must be linf or l2");
 }
 
-/// "vertex-face", "edge-edge", "tetrahedron" or "plane-triangle", as datasets and the command line
+/// "vertex-face", "edge-edge", "vertex-edge" or "vertex-vertex", as data sets and the command line
 /// spell them.
-[[nodiscard]] inline std::string_view to_string(Kind kind) {
+[[nodiscard]] constexpr std::string_view to_string(ContactKind kind) {
   switch (kind) {
-    case Kind::vertex_face:
+    case ContactKind::vertex_face:
       return "vertex-face";
-    case Kind::edge_edge:
+    case ContactKind::edge_edge:
       return "edge-edge";
-    case Kind::tetrahedron:
-      return "tetrahedron";
+    case ContactKind::vertex_edge:
+      return "vertex-edge";
     default:
-      return "plane-triangle";
+      return "vertex-vertex";
   }
-}
-
-/// \throws std::invalid_argument for an element.
-inline void require_contact(Kind kind) {
-  if (!is_element(kind)) return;
-  throw std::invalid_argument("a " + std::string(to_string(kind)) +
-                              " inverts or not; vertex-face or edge-edge is needed here");
-}
-
-/// The inverse of to_string.
-/// \throws std::invalid_argument for any other text.
-[[nodiscard]] inline Kind kind_from_string(std::string_view text) {
-  for (const Kind kind : all_kinds) {
-    if (text == to_string(kind)) return kind;
-  }
-  throw std::invalid_argument("kind must be vertex-face, edge-edge, tetrahedron or plane-triangle");
 }
 
 }  // namespace touchstone

@@ -79,7 +79,7 @@ class OneChange {
 };
 
 /// Theorem 1 for an axis of each lane.
-template <class Lanes, Kind kind>
+template <class Lanes, ContactKind kind>
 class Crossing {
  public:
   using Value = typename Lanes::Value;
@@ -259,7 +259,7 @@ inline Ball value_at(std::array<Ball, greatest_degree + 1> x, std::size_t degree
 
 /// Queries at a time of each lane, computed from their own numbers with error bounds
 /// (touchstone/filters/ball.hpp).
-template <class Lanes, Kind kind>
+template <class Lanes, ContactKind kind>
 class AtTime {
  public:
   using Value = typename Lanes::Value;
@@ -367,7 +367,7 @@ class AtTime {
 ///
 /// Computed from the queries' own numbers with error bounds. The coefficients are C(m,k) times
 /// Bernstein's.
-template <class Lanes, Kind kind>
+template <class Lanes, ContactKind kind>
 class PreciseGap {
  public:
   using Value = typename Lanes::Value;
@@ -385,7 +385,7 @@ class PreciseGap {
         reach_(Ball({n, Value(0.0)}) * Ball(rows.block.separation.distance)),
         a_(Ball({a, Value(0.0)})),
         b_(Ball({b, Value(0.0)})) {
-    constexpr std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+    constexpr std::size_t second = kind == ContactKind::vertex_face ? 1 : 2;
     weights_ = {on_part([&](std::size_t k) { return weight(k, 0); }),
                 on_part([&](std::size_t k) { return weight(k, second); })};
   }
@@ -478,7 +478,7 @@ class PreciseGap {
 
 /// The lanes in which control point k, the first or the last, is a contact, by the point (u,v).
 /// \param u, v In the domain.
-template <Norm norm, class Lanes, Kind kind>
+template <Norm norm, class Lanes, ContactKind kind>
 inline auto is_contact(const ControlPolygons<Lanes, kind>& polygons, std::size_t k,
                        const typename Lanes::Value& u, const typename Lanes::Value& v) {
   using Value = typename Lanes::Value;

@@ -45,11 +45,11 @@ inline constexpr double greatest_magnitude = 0x1p100;
 
 /// Polygons in memory. A control point has the coordinates of corner i on an axis at place
 /// axis · corners + i, then the distance.
-template <class Lanes, Kind kind>
+template <class Lanes, ContactKind kind>
 struct ControlPolygons {
   using Value = typename Lanes::Value;
   using Row = kernel::Numbers<Lanes>;
-  static constexpr std::size_t corners = kind == Kind::vertex_face ? 3 : 4;
+  static constexpr std::size_t corners = kind == ContactKind::vertex_face ? 3 : 4;
   static constexpr std::size_t size = 3 * corners + 1;
   using Corners = std::array<kernel::Vector<Value>, corners>;
 
@@ -57,7 +57,7 @@ struct ControlPolygons {
   static constexpr std::array<Corner, corners> points_of_corner = [] {
     std::array<Corner, corners> result{};
     for (std::size_t i = 0; i < corners; ++i) {
-      result[i] = kind == Kind::vertex_face ? vertex_face_corners[i] : edge_edge_corners[i];
+      result[i] = kind == ContactKind::vertex_face ? vertex_face_corners[i] : edge_edge_corners[i];
     }
     return result;
   }();
@@ -143,7 +143,7 @@ inline double binomial(std::size_t n, std::size_t i) {
 }
 
 /// Loads polygons.
-template <class Lanes, Kind kind>
+template <class Lanes, ContactKind kind>
 class Loading {
  public:
   using Value = typename Lanes::Value;
@@ -286,7 +286,7 @@ inline void restrict_row(const std::array<Value, degree + 1>& x, const Time<Valu
   if constexpr (degree > 0) restrict_row<degree - 1>(blended<degree>(x, a), a, b, take);
 }
 
-template <std::size_t degree, bool separated, class Lanes, Kind kind>
+template <std::size_t degree, bool separated, class Lanes, ContactKind kind>
 inline void restrict_degree(const ControlPolygons<Lanes, kind>& whole,
                             const Time<typename Lanes::Value>& begin,
                             const Time<typename Lanes::Value>& end,
@@ -302,7 +302,7 @@ inline void restrict_degree(const ControlPolygons<Lanes, kind>& whole,
 }
 
 /// The polygons on [begin, end] of each lane, with the bounds of `whole`.
-template <bool separated, class Lanes, Kind kind>
+template <bool separated, class Lanes, ContactKind kind>
 inline void restrict_to(const ControlPolygons<Lanes, kind>& whole,
                         const typename Lanes::Value& begin, const typename Lanes::Value& end,
                         ControlPolygons<Lanes, kind>& part) {

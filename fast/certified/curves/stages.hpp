@@ -42,10 +42,10 @@ namespace touchstone::fast::curved {
 // ---- Axis ---------------------------------------------------------------------------------------
 
 /// Stage 1 for one query at a time. False if a number is not finite or a weight is not positive.
-template <class Lanes, Kind kind>
+template <class Lanes, ContactKind kind>
 inline bool is_apart_on_axis(const Block& block, const double* numbers) {
   using Row = typename Lanes::Row;
-  constexpr std::size_t firsts = kind == Kind::vertex_face ? 1 : 2;
+  constexpr std::size_t firsts = kind == ContactKind::vertex_face ? 1 : 2;
   const std::size_t stride = block.numbers_of_point();
   Row least_a = Row::load(numbers), least_b = Row::load(numbers + firsts * stride);
   Row most_a = least_a, most_b = least_b, sum(0.0);
@@ -77,14 +77,14 @@ inline bool is_apart_on_axis(const Block& block, const double* numbers) {
 }
 
 template <class Lanes>
-void axis_stage(const Block& block, KernelOutput::List<std::uint32_t>& open) {
+void axis_stage(const Block& block, KernelList<std::uint32_t>& open) {
   open.count = 0;
   const std::size_t count = block.size();
   for (std::size_t i = 0; i < count; ++i) {
     const double* const numbers = block.numbers.data() + i * block.numbers_of_query();
-    const bool is_apart = block.kind == Kind::vertex_face
-                              ? is_apart_on_axis<Lanes, Kind::vertex_face>(block, numbers)
-                              : is_apart_on_axis<Lanes, Kind::edge_edge>(block, numbers);
+    const bool is_apart = block.kind == ContactKind::vertex_face
+                              ? is_apart_on_axis<Lanes, ContactKind::vertex_face>(block, numbers)
+                              : is_apart_on_axis<Lanes, ContactKind::edge_edge>(block, numbers);
     open.items[open.count] = static_cast<std::uint32_t>(i);
     open.count += is_apart ? 0 : 1;
   }
@@ -93,7 +93,7 @@ void axis_stage(const Block& block, KernelOutput::List<std::uint32_t>& open) {
 // ---- Direction ----------------------------------------------------------------------------------
 
 /// Stage 2 for a direction of a dual norm of at most n.
-template <bool separated, class Lanes, Kind kind>
+template <bool separated, class Lanes, ContactKind kind>
 inline auto separates(const ControlPolygons<Lanes, kind>& polygons,
                       const kernel::Vector<typename Lanes::Value>& v,
                       const typename Lanes::Value& n) {
@@ -124,7 +124,7 @@ inline auto separates(const ControlPolygons<Lanes, kind>& polygons,
 
 /// Stage 2 for the coordinate axes. The two sums of numbers up to M and their errors are covered by
 /// thrice the error and 2 u M.
-template <bool separated, class Lanes, Kind kind>
+template <bool separated, class Lanes, ContactKind kind>
 inline auto separates_on_axis(const ControlPolygons<Lanes, kind>& polygons) {
   using Value = typename Lanes::Value;
   using Mask = kernel::MaskOf<Value>;
@@ -150,7 +150,7 @@ inline auto separates_on_axis(const ControlPolygons<Lanes, kind>& polygons) {
 }
 
 /// The sum of all control points: a direction for distance 0, where its length does not matter.
-template <class Lanes, Kind kind>
+template <class Lanes, ContactKind kind>
 inline kernel::Vector<typename Lanes::Value> sum_of_corners(
     const ControlPolygons<Lanes, kind>& polygons) {
   using Value = typename Lanes::Value;
@@ -178,11 +178,11 @@ struct Impacts {
 };
 
 /// Stages 2 and 3 for the queries of a list.
-template <class Lanes, Kind kind, Norm norm, bool separated>
+template <class Lanes, ContactKind kind, Norm norm, bool separated>
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): numbers of lanes are aligned
 class Search {
  public:
-  static void run(const Block& block, const KernelOutput::List<std::uint32_t>& queries,
+  static void run(const Block& block, const KernelList<std::uint32_t>& queries,
                   Denominators denominators, KernelOutput& output) {
     Search search(block, queries, denominators, output);
     for (std::size_t lane = 0; lane < width; ++lane) search.refill(lane);
@@ -204,8 +204,8 @@ class Search {
   static constexpr double short_length = 0x1p-20;
   static constexpr double least_length = 0x1p-24;
 
-  Search(const Block& block, const KernelOutput::List<std::uint32_t>& queries,
-         Denominators denominators, KernelOutput& output)
+  Search(const Block& block, const KernelList<std::uint32_t>& queries, Denominators denominators,
+         KernelOutput& output)
       : block_(block), queries_(queries), output_(output), denominators_(denominators) {}
 
   // ---- Queries in lanes ----
@@ -268,7 +268,7 @@ class Search {
   static std::array<Value, 2> closest_point(const Nearest& nearest) {
     const Value zero(0.0), one(1.0);
     const Value u = max(min(nearest.u, one), zero), v = max(min(nearest.v, one), zero);
-    if constexpr (kind == Kind::edge_edge) return {u, v};
+    if constexpr (kind == ContactKind::edge_edge) return {u, v};
     // Move to the side u + v = 1, a little inside. (A sum above 1 may round to 1: `rest` is its
     // error.)
     const Value sum = u + v, part = sum - u;
@@ -349,7 +349,7 @@ class Search {
   /// a triangle do not depend on factors. Four corners are λ_i w_i with w_0 − w_1 + w_2 − w_3 = 0,
   /// and det of all but λ_i w_i is, up to its sign, the product of the other λ times one number.
   static Corners with_one_factor(Corners w) {
-    if constexpr (kind == Kind::edge_edge) {
+    if constexpr (kind == ContactKind::edge_edge) {
       std::array<Value, corners> factor;
       Value greatest(0.0);
       for (std::size_t i = 0; i < corners; ++i) {
@@ -534,7 +534,7 @@ class Search {
   Impacts<Lanes> found_;
 
   const Block& block_;
-  const KernelOutput::List<std::uint32_t>& queries_;
+  const KernelList<std::uint32_t>& queries_;
   KernelOutput& output_;
   std::size_t next_ = 0;                           ///< in the list
   std::array<std::uint32_t, width> loaded_index_;  ///< the lanes of `loaded_`
@@ -545,8 +545,8 @@ class Search {
   Denominators denominators_;
 };
 
-template <class Lanes, Kind kind>
-inline void search_kind(const Block& block, const KernelOutput::List<std::uint32_t>& queries,
+template <class Lanes, ContactKind kind>
+inline void search_kind(const Block& block, const KernelList<std::uint32_t>& queries,
                         Denominators denominators, KernelOutput& output) {
   if (block.separation.distance == 0.0) {
     Search<Lanes, kind, Norm::l2, false>::run(block, queries, denominators, output);
@@ -559,12 +559,12 @@ inline void search_kind(const Block& block, const KernelOutput::List<std::uint32
 
 /// Runs stages 2 and 3.
 template <class Lanes>
-void search(const Block& block, const KernelOutput::List<std::uint32_t>& queries,
-            Denominators denominators, KernelOutput& output) {
-  if (block.kind == Kind::vertex_face) {
-    search_kind<Lanes, Kind::vertex_face>(block, queries, denominators, output);
+void search(const Block& block, const KernelList<std::uint32_t>& queries, Denominators denominators,
+            KernelOutput& output) {
+  if (block.kind == ContactKind::vertex_face) {
+    search_kind<Lanes, ContactKind::vertex_face>(block, queries, denominators, output);
   } else {
-    search_kind<Lanes, Kind::edge_edge>(block, queries, denominators, output);
+    search_kind<Lanes, ContactKind::edge_edge>(block, queries, denominators, output);
   }
 }
 

@@ -27,14 +27,14 @@ double length(const Eigen::Vector3d& a) {
 
 /// r − u p − v q.
 struct Polygon {
-  Kind kind;
+  ContactKind kind;
   Eigen::Vector3d r, p, q;
 
   [[nodiscard]] Eigen::Vector3d at(const Parameters& x) const { return r - x.u * p - x.v * q; }
 };
 
 /// The vectors at time t, scaled.
-Polygon polygon_at(Kind kind, const Query& query, double t) {
+Polygon polygon_at(ContactKind kind, const Query& query, double t) {
   const auto [start, end] = scaled_vectors(kind, query);
   return {kind, (1.0 - t) * start.r + t * end.r, (1.0 - t) * start.p + t * end.p,
           (1.0 - t) * start.q + t * end.q};
@@ -48,7 +48,8 @@ class Search {
   /// Takes a point if it is better. Ignores NaN and points outside by more than rounding.
   void consider(const Parameters& x) {
     constexpr double slack = 0x1p-40;
-    const double farthest = polygon_.kind == Kind::vertex_face ? x.u + x.v : std::max(x.u, x.v);
+    const double farthest =
+        polygon_.kind == ContactKind::vertex_face ? x.u + x.v : std::max(x.u, x.v);
     if (!(std::min(x.u, x.v) >= -slack && farthest <= 1.0 + slack)) return;
     const Eigen::Vector3d f = polygon_.at(x);
     const double distance = norm_ == Norm::l2 ? length(f) : f.cwiseAbs().maxCoeff();
@@ -86,10 +87,10 @@ constexpr std::array<DomainSide, 4> sides_between(std::span<const Corner> all) {
   return result;
 }
 
-std::array<DomainSide, 4> sides(Kind kind) {
+std::array<DomainSide, 4> sides(ContactKind kind) {
   constexpr auto of_face = sides_between(vertex_face_corners);
   constexpr auto of_edges = sides_between(edge_edge_corners);
-  return kind == Kind::vertex_face ? of_face : of_edges;
+  return kind == ContactKind::vertex_face ? of_face : of_edges;
 }
 
 /// Solves the rows a · (u,v) = b.
@@ -145,7 +146,7 @@ void search_greatest_component(const Polygon& polygon, Search& search) {
 
 }  // namespace
 
-std::array<AffineVectors, 2> scaled_vectors(Kind kind, const Query& query) {
+std::array<AffineVectors, 2> scaled_vectors(ContactKind kind, const Query& query) {
   double largest = 0.0;
   for (const double x : query.coordinates) largest = std::max(largest, std::abs(x));
   int exponent = 0;
@@ -166,17 +167,17 @@ std::array<AffineVectors, 2> scaled_vectors(Kind kind, const Query& query) {
   return {at(0), at(1)};
 }
 
-Parameters inside_domain(Kind kind, Parameters x) {
+Parameters inside_domain(ContactKind kind, Parameters x) {
   constexpr double least = 0x1p-200;  // smaller values count as 0: no sum is subnormal
   for (double* const one : {&x.u, &x.v}) *one = *one >= least ? std::min(*one, 1.0) : 0.0;
-  if (kind == Kind::edge_edge) return x;
+  if (kind == ContactKind::edge_edge) return x;
   double rest = 1.0 - x.u;  // exact, or rounded within [1/2, 1]; there 1 − rest is exact
   if (1.0 - rest < x.u) rest = std::bit_cast<double>(std::bit_cast<std::uint64_t>(rest) - 1);
   x.v = std::min(x.v, rest);
   return x;
 }
 
-Parameters nearest_parameters(Kind kind, const Query& query, double t, Norm norm) {
+Parameters nearest_parameters(ContactKind kind, const Query& query, double t, Norm norm) {
   const Polygon polygon = polygon_at(kind, query, t);
   Search search(polygon, norm);
   if (norm == Norm::l2) {

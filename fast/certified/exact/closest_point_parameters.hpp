@@ -32,14 +32,15 @@ struct AffineVectors {
 /// The vectors of a query at t=0 and at t=1, in units of a power of two that no coordinate exceeds,
 /// against overflow. Differences of points are taken first, so a common motion or position costs no
 /// accuracy.
-[[nodiscard]] std::array<AffineVectors, 2> scaled_vectors(Kind kind, const Query& query);
+[[nodiscard]] std::array<AffineVectors, 2> scaled_vectors(ContactKind kind, const Query& query);
 
 /// An approximation of the point of F's domain that is nearest to these parameters, exactly inside
 /// it.
-[[nodiscard]] Parameters inside_domain(Kind kind, Parameters x);
+[[nodiscard]] Parameters inside_domain(ContactKind kind, Parameters x);
 
 /// The (u,v), up to rounding, at which ‖F(t,u,v)‖ is least; one of them if there are several.
 /// \pre all coordinates are finite; 0 ≤ t ≤ 1.
-[[nodiscard]] Parameters nearest_parameters(Kind kind, const Query& query, double t, Norm norm);
+[[nodiscard]] Parameters nearest_parameters(ContactKind kind, const Query& query, double t,
+                                            Norm norm);
 
 }  // namespace touchstone::fast::exact_stage

@@ -70,7 +70,7 @@ using Cube = decltype(Square<Number>() * Number());
 /// determinants of vectors of length up to √3·2^b, to 16·2^3b.)
 template <class Linear>
 struct MotionOf {
-  Kind kind = Kind::vertex_face;
+  ContactKind kind = ContactKind::vertex_face;
   std::array<Linear, 3> r, p, q;
   /// The exponent of the unit of each axis; only guesses use it.
   std::array<int, 3> unit{};
@@ -189,7 +189,7 @@ template <class Linear>
 [[nodiscard]] Bounds<Quadratic<Linear>> bounds(const MotionOf<Linear>& motion,
                                                const Quadratic<Linear>& n, std::size_t k) {
   const auto u = cross(motion.r, motion.q, k), v = cross(motion.p, motion.r, k);
-  if (motion.kind == Kind::vertex_face) {
+  if (motion.kind == ContactKind::vertex_face) {
     return {n, {u, v, n - u - v, {}}, 3};
   }
   return {n, {u, v, n - u, n - v}, 4};
@@ -207,7 +207,7 @@ template <class Linear>
 [[nodiscard]] std::vector<MovingCorner<Linear>> moving_corners(const MotionOf<Linear>& motion) {
   const auto u_corner = motion.r - motion.p, v_corner = motion.r - motion.q;
   std::vector<MovingCorner<Linear>> result{{motion.r, false, false}, {u_corner, true, false}};
-  if (motion.kind == Kind::edge_edge) {
+  if (motion.kind == ContactKind::edge_edge) {
     result.push_back({u_corner - motion.q, true, true});
   }
   result.push_back({v_corner, false, true});

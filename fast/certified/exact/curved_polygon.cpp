@@ -141,13 +141,13 @@ std::vector<Polynomial> other_factors(std::vector<Polynomial> factors,
 }
 
 /// The motion of a triangle or parallelogram.
-MotionOf<Polynomial> motion_of(Kind kind, const Vector& first, const Vector& next,
+MotionOf<Polynomial> motion_of(ContactKind kind, const Vector& first, const Vector& next,
                                const Vector& last) {
   return {kind, first, first - next, first - last, {}};
 }
 
 /// The corners of all points times all denominators.
-std::vector<Vector> whole_corners(Kind kind, RationalPoints points) {
+std::vector<Vector> whole_corners(ContactKind kind, RationalPoints points) {
   const std::vector<Polynomial> denominators = points.distinct();
   for (std::size_t i = 0; i < moving_points; ++i) {
     for (const Polynomial& denominator : denominators) {
@@ -165,7 +165,7 @@ std::vector<Vector> whole_corners(Kind kind, RationalPoints points) {
 
 }  // namespace
 
-CurvedPoints points_of(Kind kind, const CurvedQuery& query, double distance) {
+CurvedPoints points_of(ContactKind kind, const CurvedQuery& query, double distance) {
   RationalPoints points(query, true);
   CurvedPoints result{.points = {.kind = kind, .points = {}},
                       .denominators = points.distinct(),
@@ -184,7 +184,7 @@ CurvedPoints points_of(Kind kind, const CurvedQuery& query, double distance) {
   return result;
 }
 
-std::vector<PolynomialMotion> motions_of(Kind kind, const CurvedQuery& query) {
+std::vector<PolynomialMotion> motions_of(ContactKind kind, const CurvedQuery& query) {
   const RationalPoints points(query, false);
   const std::vector<Polynomial> distinct = points.distinct();
   std::vector<Polynomial> factors;
@@ -205,8 +205,8 @@ std::vector<PolynomialMotion> motions_of(Kind kind, const CurvedQuery& query) {
     for (const std::size_t k : {std::size_t{0}, i, i + 1}) {
       add(denominators_of(points, corners(kind)[k]));
     }
-    result.push_back(
-        {motion_of(Kind::vertex_face, w[0], w[i], w[i + 1]), other_factors(factors, points)});
+    result.push_back({motion_of(ContactKind::vertex_face, w[0], w[i], w[i + 1]),
+                      other_factors(factors, points)});
   }
   return result;
 }

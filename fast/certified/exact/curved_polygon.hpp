@@ -34,10 +34,10 @@ struct CurvedPoints {
 };
 
 /// \pre is_valid(query), distance > 0
-[[nodiscard]] CurvedPoints points_of(Kind kind, const CurvedQuery& query, double distance);
+[[nodiscard]] CurvedPoints points_of(ContactKind kind, const CurvedQuery& query, double distance);
 
 /// Motions of which one contains the origin iff the query is in contact. \pre is_valid(query)
-[[nodiscard]] std::vector<PolynomialMotion> motions_of(Kind kind, const CurvedQuery& query);
+[[nodiscard]] std::vector<PolynomialMotion> motions_of(ContactKind kind, const CurvedQuery& query);
 
 /// The same query on straight lines, if all its curves are polynomial and of a degree up to 1.
 [[nodiscard]] std::optional<Query> on_lines(const CurvedQuery& query);

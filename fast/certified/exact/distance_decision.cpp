@@ -76,7 +76,7 @@ class Setting {
     for (const Corner& corner : corners_) corners.push_back(between(corner.minus, corner.plus));
   }
 
-  [[nodiscard]] Kind kind() const { return points_.kind; }
+  [[nodiscard]] ContactKind kind() const { return points_.kind; }
   [[nodiscard]] std::size_t next(std::size_t corner) const { return (corner + 1) % corners.size(); }
 
   [[nodiscard]] Side side(std::size_t i) const {
@@ -89,7 +89,7 @@ class Setting {
 
   /// (w_1 − w_0) × (w_last − w_0), which is e × f for all neighbouring sides e and f.
   [[nodiscard]] Vector normal() const {
-    if (kind() == Kind::vertex_face) return area(2, 3, 1);
+    if (kind() == ContactKind::vertex_face) return area(2, 3, 1);
     return cross_product(between(0, 1), between(3, 2));
   }
 
@@ -97,8 +97,9 @@ class Setting {
   /// points.
   [[nodiscard]] Fraction determinant(const Vector& normal) const {
     if (have_one_denominator({0, 1, 2, 3})) return dot(normal, corners[0]);
-    const auto [p, q, r, s] = kind() == Kind::vertex_face ? std::array<std::size_t, 4>{1, 2, 3, 0}
-                                                          : std::array<std::size_t, 4>{1, 0, 2, 3};
+    const auto [p, q, r, s] = kind() == ContactKind::vertex_face
+                                  ? std::array<std::size_t, 4>{1, 2, 3, 0}
+                                  : std::array<std::size_t, 4>{1, 0, 2, 3};
     return dot(area(p, q, r), at(s)) - dot(at(p), cross_product(at(q), at(r)));
   }
 
@@ -175,7 +176,7 @@ std::vector<Separator> axes(const Setting& setting) {
 std::vector<Separator> cube_separators(const Setting& setting) {
   std::vector<Separator> result;
   const Vector normal = setting.normal();
-  const std::size_t sides = setting.kind() == Kind::vertex_face ? 3 : 2;
+  const std::size_t sides = setting.kind() == ContactKind::vertex_face ? 3 : 2;
   for (std::size_t i = 0; i < sides; ++i) {
     const auto [e, area] = setting.side(i);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -446,7 +447,7 @@ std::optional<BitInterval> first_approach(const Motion<BigInteger>& motion,
   const Vector origin = vector_of(MovingVector<BigInteger>{});
   MovingPoints points{.kind = motion.kind,
                       .points = {vector_of(r), origin, vector_of(p), vector_of(q)}};
-  if (motion.kind == Kind::edge_edge) {
+  if (motion.kind == ContactKind::edge_edge) {
     points.points = {vector_of(r), vector_of(r - p), origin, vector_of(q)};
   }
   return first_approach(points, distance, norm, latest, step);

@@ -89,7 +89,7 @@ struct ScaledDistance {
 
 /// The points of a query, in the order of its kind.
 struct MovingPoints {
-  Kind kind = Kind::vertex_face;
+  ContactKind kind = ContactKind::vertex_face;
   std::array<std::array<Fraction, 3>, moving_points> points;
 };
 

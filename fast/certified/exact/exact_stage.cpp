@@ -61,7 +61,7 @@ Whole shifted(Whole x, int bits) {
 
 /// r, p and q in units of 2^lowest on each axis. `Whole` must hold the differences of coordinates.
 template <class Number, class Whole>
-Motion<Number> motion_of(Kind kind, const std::array<Axis, 3>& axes) {
+Motion<Number> motion_of(ContactKind kind, const std::array<Axis, 3>& axes) {
   const auto points = affine_vectors(kind);
   Motion<Number> motion;
   motion.kind = kind;
@@ -96,8 +96,8 @@ std::array<Axis, 3> axes_of_one_unit(const Query& query) {
   return axes;
 }
 
-std::optional<ExactImpact> first_impact_of(Kind kind, const Query& query, std::uint64_t latest,
-                                           std::uint64_t step) {
+std::optional<ExactImpact> first_impact_of(ContactKind kind, const Query& query,
+                                           std::uint64_t latest, std::uint64_t step) {
   const std::array<Axis, 3> axes{axis_of(query, 0), axis_of(query, 1), axis_of(query, 2)};
   int bits = 0;
   for (const Axis& axis : axes) bits = std::max(bits, axis.highest - axis.lowest);
@@ -116,7 +116,7 @@ std::optional<ExactImpact> first_impact_of(Kind kind, const Query& query, std::u
 /// Contact at distance 0 implies contact at the distance, so the first contact at the distance is
 /// not later. If there is none at the distance until just before the first contact at 0, the
 /// enclosure of that one is the result. For small distances this is the common case.
-std::optional<BitInterval> first_approach_of(Kind kind, const Query& query,
+std::optional<BitInterval> first_approach_of(ContactKind kind, const Query& query,
                                              const Separation& separation, std::uint64_t latest,
                                              std::uint64_t step) {
   const auto impact = first_impact_of(kind, query, latest, step);
@@ -134,7 +134,7 @@ std::optional<BitInterval> first_approach_of(Kind kind, const Query& query,
 }
 
 /// The first contact of any of the motions.
-std::optional<BitInterval> first_contact_of(Kind kind, const CurvedQuery& query,
+std::optional<BitInterval> first_contact_of(ContactKind kind, const CurvedQuery& query,
                                             std::uint64_t latest) {
   std::optional<BitInterval> result;
   for (const auto& motion : motions_of(kind, query)) {
@@ -146,7 +146,7 @@ std::optional<BitInterval> first_contact_of(Kind kind, const CurvedQuery& query,
   return result;
 }
 
-std::optional<BitInterval> first_approach_of(Kind kind, const CurvedQuery& query,
+std::optional<BitInterval> first_approach_of(ContactKind kind, const CurvedQuery& query,
                                              const Separation& separation, std::uint64_t latest,
                                              std::uint64_t step) {
   const CurvedPoints curved = points_of(kind, query, separation.distance);
@@ -162,14 +162,14 @@ std::uint64_t step_of(double tolerance) {
                   std::uint64_t{1});
 }
 
-ExactImpact approach_at(Kind kind, const BitInterval& time, const Parameters& nearest) {
+ExactImpact approach_at(ContactKind kind, const BitInterval& time, const Parameters& nearest) {
   const auto [u, v] = inside_domain(kind, nearest);
   return impact_at(time, u, v);
 }
 
 }  // namespace
 
-std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
+std::optional<ExactImpact> decide_exactly(ContactKind kind, const Query& query,
                                           const Separation& separation, double toi_tolerance,
                                           double t_max) {
   const std::uint64_t latest = unit_bits(t_max), step = step_of(toi_tolerance);
@@ -185,7 +185,7 @@ std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
   return approach_at(kind, *time, nearest_parameters(kind, query, toi_upper, separation.norm));
 }
 
-std::optional<ExactImpact> decide_exactly(Kind kind, const CurvedQuery& query,
+std::optional<ExactImpact> decide_exactly(ContactKind kind, const CurvedQuery& query,
                                           const Separation& separation, double toi_tolerance,
                                           double t_max) {
   if (const auto lines = on_lines(query)) {
@@ -203,7 +203,7 @@ std::optional<ExactImpact> decide_exactly(Kind kind, const CurvedQuery& query,
 ExactInversion decide_inversion_exactly(const Query& tetrahedron, double t_max,
                                         double kept_volume) {
   const auto motion = motion_of<BigInteger, BigInteger>(
-      Kind::vertex_face,
+      ContactKind::vertex_face,
       {axis_of(tetrahedron, 0), axis_of(tetrahedron, 1), axis_of(tetrahedron, 2)});
   auto det = determinant(motion, normal(motion));
   ExactInversion result{.start = -det.front().sign()};

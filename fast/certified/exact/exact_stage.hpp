@@ -29,16 +29,16 @@ struct ExactImpact {
 /// (u,v) is one of them; at a positive separation, of about the nearest points, without an error
 /// bound. Independent of the floating-point environment (rounding mode, flushed subnormals).
 /// \pre all coordinates are finite; the separation is valid; 0 ≤ toi_tolerance; 0 ≤ t_max ≤ 1.
-[[nodiscard]] std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
+[[nodiscard]] std::optional<ExactImpact> decide_exactly(ContactKind kind, const Query& query,
                                                         const Separation& separation,
                                                         double toi_tolerance, double t_max);
 
 /// The same on curves. \pre as above, and the weights are positive.
-[[nodiscard]] std::optional<ExactImpact> decide_exactly(Kind kind, const CurvedQuery& query,
+[[nodiscard]] std::optional<ExactImpact> decide_exactly(ContactKind kind, const CurvedQuery& query,
                                                         const Separation& separation,
                                                         double toi_tolerance, double t_max);
 
-/// The answer about a tetrahedron (touchstone/element.hpp).
+/// The answer about a tetrahedron (touchstone/cell.hpp).
 struct ExactInversion {
   int start = 0;           ///< the sign of the volume at t=0
   bool inverts = false;    ///< it is so at a time of at most t_max

@@ -46,9 +46,9 @@ inline Sides<X> sides_of(const X& least_a, const X& greatest_a, const X& greates
 }
 
 /// The sides of four points: coordinates of one axis or rows of all three.
-template <Kind kind, bool by_distance, class X>
+template <ContactKind kind, bool by_distance, class X>
 inline Sides<X> sides(const X& a, const X& b, const X& c, const X& d, const X& distance) {
-  if constexpr (kind == Kind::vertex_face) {
+  if constexpr (kind == ContactKind::vertex_face) {
     return sides_of<by_distance>(a, a, max(max(b, c), d), min(min(b, c), d), distance);
   } else {
     return sides_of<by_distance>(min(a, b), max(a, b), max(c, d), min(c, d), distance);
@@ -67,7 +67,7 @@ inline X sum_of(const std::array<X, query_points>& x) {
 }
 
 /// The axes that separate a query up to a time.
-template <Kind kind, bool separated, class X>
+template <ContactKind kind, bool separated, class X>
 inline MaskOf<X> separating_until(const std::array<X, query_points>& points, const X& distance,
                                   double time) {
   const X of_start(1.0 - time), of_end(time);
@@ -87,7 +87,7 @@ inline MaskOf<X> separating_until(const std::array<X, query_points>& points, con
 }
 
 /// The test up to a time for queries in lanes.
-template <class Value, bool separated, Kind kind>
+template <class Value, bool separated, ContactKind kind>
 inline MaskOf<Value> is_separated_until(const std::array<Vector<Value>, query_points>& points,
                                         double distance, double time) {
   const Value zero(0.0);
@@ -103,7 +103,7 @@ inline MaskOf<Value> is_separated_until(const std::array<Vector<Value>, query_po
   return apart & (nothing <= zero);
 }
 
-template <class Lanes, bool separated, Kind kind, class Source>
+template <class Lanes, bool separated, ContactKind kind, class Source>
 class AxisStage {
  public:
   /// \param open The queries that no axis separates; for several queries, on the whole [0,1].

@@ -20,7 +20,7 @@
 namespace touchstone::fast::kernel {
 
 /// The moving vectors of `width` queries and their bounds, in memory.
-template <class Lanes, Kind kind>
+template <class Lanes, ContactKind kind>
 struct MovingLanes {
   using Value = typename Lanes::Value;
   static constexpr std::size_t orientation_count = orientations<kind>().size();
@@ -65,16 +65,16 @@ struct MovingLanes {
 };
 
 /// Queries to bisect, lane by lane.
-template <class Lanes, Kind kind>
+template <class Lanes, ContactKind kind>
 struct Moving {
   const Indices* indices;
   std::array<MovingLanes<Lanes, kind>, groups_of_block<Lanes>> groups;
 };
 
 /// \param bounds of queries from their vectors
-template <class Lanes, Kind kind, class Source, class MakeBounds>
-inline void load_moving(const KernelInput& input, const Indices& indices,
-                        Moving<Lanes, kind>& moving, const MakeBounds& bounds) {
+template <class Lanes, ContactKind kind, class Source, class Input, class MakeBounds>
+inline void load_moving(const Input& input, const Indices& indices, Moving<Lanes, kind>& moving,
+                        const MakeBounds& bounds) {
   moving.indices = &indices;
   for (std::size_t first = 0; first < indices.count; first += Lanes::width) {
     const std::size_t count = taken<Lanes>(first, indices.count);
@@ -83,7 +83,7 @@ inline void load_moving(const KernelInput& input, const Indices& indices,
     moving.groups[first / Lanes::width].store(unit, bounds(unit));
   }
 }
-template <class Lanes, bool separated, Kind kind, class Source>
+template <class Lanes, bool separated, ContactKind kind, class Source>
 inline void load_moving(const KernelInput& input, const Indices& indices,
                         Moving<Lanes, kind>& moving) {
   using Value = typename Lanes::Value;
@@ -93,7 +93,7 @@ inline void load_moving(const KernelInput& input, const Indices& indices,
 }
 
 /// What is proved of contacts on an interval, from the vectors at its ends.
-template <Kind kind>
+template <ContactKind kind>
 struct ExamineContacts {
   template <class Value>
   [[nodiscard]] static Examination<Value> on(const Ends<Value>& at,
@@ -106,12 +106,12 @@ struct ExamineContacts {
 /// next query.
 /// \tparam Examine as ExamineContacts, with its own proofs of "no contact" and of "one, at the only
 /// zero of det"
-template <class Lanes, Kind kind, class Examine = ExamineContacts<kind>>
+template <class Lanes, ContactKind kind, class Examine = ExamineContacts<kind>>
 class Bisection {
  public:
-  Bisection(const KernelInput& input, const Moving<Lanes, kind>& moving, Crossings& contacts,
+  Bisection(double t_limit, const Moving<Lanes, kind>& moving, Crossings& contacts,
             Indices& rejected, Indices& hopeless)
-      : input_(input),
+      : t_limit_(t_limit),
         moving_(moving),
         contacts_(contacts),
         rejected_(rejected),
@@ -176,7 +176,7 @@ class Bisection {
     const Value steps = load(steps_) + Value(1.0);
     const Value next_length =
         select(rejected, select(can_double, doubled, length), length * Value(0.5));
-    const unsigned over = (rejected & (end >= Value(input_.t_limit))).bits() & active_ & ~contact;
+    const unsigned over = (rejected & (end >= Value(t_limit_))).bits() & active_ & ~contact;
     const Mask is_short = (next_length < least) & (next_length < length);
     const Mask is_hopeless = is_short | (steps > Value(most_steps));
     const unsigned hopeless = is_hopeless.bits() & active_ & ~contact & ~over;
@@ -206,7 +206,7 @@ class Bisection {
   std::array<std::uint32_t, width> index_{};
   unsigned active_ = 0;   ///< the lanes that hold a query
   std::size_t next_ = 0;  ///< index of the next query
-  const KernelInput& input_;
+  double t_limit_;
   const Moving<Lanes, kind>& moving_;
   Crossings& contacts_;
   Indices& rejected_;

@@ -30,13 +30,13 @@ namespace touchstone::fast::kernel {
 template <class Scalar>
 inline constexpr Scalar unit_length = 1 + 4 * std::numeric_limits<Scalar>::epsilon();
 
-template <class Lanes, Kind kind, Norm norm>
+template <class Lanes, ContactKind kind, Norm norm>
 class NearestPoint {
  public:
   using Value = typename Lanes::Value;
   using Mask = typename Lanes::Mask;
   using Vector = std::array<Value, 3>;
-  static constexpr std::size_t corners = kind == Kind::vertex_face ? 3 : 4;
+  static constexpr std::size_t corners = kind == ContactKind::vertex_face ? 3 : 4;
   using Corners = std::array<Vector, corners>;
 
   /// The direction, of dual norm at most unit_length; NaN if none separates.
@@ -73,7 +73,7 @@ class NearestPoint {
 
   /// (u,v) of a corner.
   static constexpr std::array<Scalar, 2> parameters(std::size_t corner) {
-    if constexpr (kind == Kind::vertex_face) {
+    if constexpr (kind == ContactKind::vertex_face) {
       constexpr std::array<std::array<Scalar, 2>, 3> all{{{0, 0}, {1, 0}, {0, 1}}};
       return all[corner];
     } else {
@@ -167,7 +167,7 @@ class NearestPoint {
     };
     length = Value(Format::least_length);
     for (std::size_t axis = 0; axis < 3; ++axis) try_axis(w, axis, is_better);
-    const std::size_t directions = kind == Kind::vertex_face ? 3 : 2;
+    const std::size_t directions = kind == ContactKind::vertex_face ? 3 : 2;
     for (std::size_t i = 0; i < directions; ++i) {
       for (std::size_t axis = 0; axis < 3; ++axis) try_side(w, i, axis, is_better);
     }
@@ -201,7 +201,7 @@ class NearestPoint {
   void try_side(const Corners& w, std::size_t i, std::size_t axis, const IsBetter& is_better) {
     const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3, j = (i + 1) % corners;
     const std::size_t from = (j + 1) % corners;
-    const std::size_t to = kind == Kind::vertex_face ? from : (i + 3) % corners;
+    const std::size_t to = kind == ContactKind::vertex_face ? from : (i + 3) % corners;
     const Value e_y = w[j][y] - w[i][y], e_z = w[j][z] - w[i][z];
     const auto project = [&](std::size_t corner) {
       return e_y * w[corner][z] - e_z * w[corner][y];
@@ -225,7 +225,7 @@ class NearestPoint {
     const Value part_z = (with_sign(reach, d[z]) - start_z) / e_z;
     const Value part = max(min(select(abs(e_y) > abs(e_z), part_y, part_z), Value(1)), zero);
     take_on_side(better & is_here, i, j, part);
-    if constexpr (kind == Kind::edge_edge) {
+    if constexpr (kind == ContactKind::edge_edge) {
       const Mask is_there = abs(there) < abs(here);
       take_on_side(better & is_there, to, from, part);
     }

@@ -29,7 +29,7 @@ struct PolygonRows {
 
   alignas(sizeof(Numbers<Lanes>)) std::array<Numbers<Lanes>, magnitude_row + 1> row;
 
-  template <Kind kind>
+  template <ContactKind kind>
   void store(const PolygonVectors<Value, kind>& polygon) {
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t end = 0; end < 2; ++end) {
@@ -41,7 +41,7 @@ struct PolygonRows {
     polygon.magnitude.store(row[magnitude_row].data());
   }
 
-  template <Kind kind, Norm norm>
+  template <ContactKind kind, Norm norm>
   [[nodiscard]] MovingPolygon<Lanes, kind, norm> polygon(double distance) const {
     std::array<std::array<Vector<Value>, 2>, 3> vectors;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -60,7 +60,7 @@ using PolygonLanes = std::array<PolygonRows<Lanes>, groups_of_block<Lanes>>;
 
 /// Follows `width` queries at once, each at its own time; a lane that is finished takes the next
 /// query.
-template <class Lanes, Kind kind, Norm norm>
+template <class Lanes, ContactKind kind, Norm norm>
 class Advance {
  public:
   Advance(const KernelInput& input, const Indices& queries, const PolygonLanes<Lanes>& polygons,
@@ -195,7 +195,7 @@ class Advance {
   KernelOutput& output_;
 };
 
-template <class Lanes, Kind kind, Norm norm, class Source>
+template <class Lanes, ContactKind kind, Norm norm, class Source>
 inline void advancement_stage(const KernelInput& input, const Indices& far, KernelOutput& output) {
   PolygonLanes<Lanes> polygons;
   for (std::size_t first = 0; first < far.count; first += Lanes::width) {

@@ -98,7 +98,7 @@ struct DeterminantTest {
 /// The stages direction and determinant, and before them the stage axis for several queries up to
 /// t_limit, if it is less than 1 and they were not tested before.
 /// \param mixed The queries that none of them decides.
-template <class Lanes, bool separated, Kind kind, class Source>
+template <class Lanes, bool separated, ContactKind kind, class Source>
 inline void direction_and_determinant_stage(const KernelInput& input, const Indices& open,
                                             Indices& mixed, KernelOutput& output) {
   using Value = typename Lanes::Value;

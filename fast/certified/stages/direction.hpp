@@ -23,17 +23,17 @@ namespace touchstone::fast::kernel {
 
 /// A query's points as differences from one of them, at t=0 and t=1. The corners are all a − b for
 /// a of the first and b of the second list.
-template <class Value, Kind kind>
+template <class Value, ContactKind kind>
 struct Differences {
-  static constexpr std::size_t firsts = kind == Kind::vertex_face ? 1 : 2;
-  static constexpr std::size_t seconds = kind == Kind::vertex_face ? 2 : 1;
+  static constexpr std::size_t firsts = kind == ContactKind::vertex_face ? 1 : 2;
+  static constexpr std::size_t seconds = kind == ContactKind::vertex_face ? 2 : 1;
 
   std::array<std::array<Vector<Value>, 2>, firsts> a;
   std::array<std::array<Vector<Value>, 2>, seconds> b;  ///< with the origin, which is a b too
 
   template <class Coordinate>
   explicit Differences(const std::array<Vector<Coordinate>, query_points>& x) {
-    constexpr std::size_t origin = kind == Kind::vertex_face ? 1 : 2;
+    constexpr std::size_t origin = kind == ContactKind::vertex_face ? 1 : 2;
     for (std::size_t end = 0; end < 2; ++end) {
       const Vector<Coordinate>& from = x[4 * end + origin];
       for (std::size_t i = 0; i < firsts; ++i) a[i][end] = minus(x[4 * end + i], from);
@@ -47,7 +47,7 @@ struct Differences {
   [[nodiscard]] Vector<Value> sum_of_corners() const {
     Vector<Value> sum;
     for (std::size_t k = 0; k < 3; ++k) {
-      if constexpr (kind == Kind::vertex_face) {
+      if constexpr (kind == ContactKind::vertex_face) {
         const Value of_a = a[0][0][k] + a[0][1][k];
         sum[k] = ((of_a + of_a) + of_a) - ((b[0][0][k] + b[0][1][k]) + (b[1][0][k] + b[1][1][k]));
       } else {
@@ -101,7 +101,7 @@ struct Differences {
 };
 
 /// \tparam steps The number of further directions.
-template <class Value, bool separated, Kind kind, int steps = 0>
+template <class Value, bool separated, ContactKind kind, int steps = 0>
 class DirectionTest {
  public:
   MaskOf<Value> bounded;  ///< the query is small enough for all bounds, and finite
@@ -117,7 +117,7 @@ class DirectionTest {
     for (int step = 0; step < steps; ++step) {
       const auto least = differences.least(d);
       apart = apart | separates(d, least.gap, magnitude, distance);
-      constexpr auto of_sum = Scalar(1) / Scalar(kind == Kind::vertex_face ? 6 : 4);
+      constexpr auto of_sum = Scalar(1) / Scalar(kind == ContactKind::vertex_face ? 6 : 4);
       if (step == 0) d = {d[0] * Value(of_sum), d[1] * Value(of_sum), d[2] * Value(of_sum)};
       approach(d, least.corner);
     }

@@ -44,7 +44,7 @@ inline void with_norm(Norm norm, const Function& function) {
 }
 
 /// Proofs in double-double, from the points themselves.
-template <class Lanes, Kind kind, Norm norm>
+template <class Lanes, ContactKind kind, Norm norm>
 class PreciseProof {
  public:
   using Value = typename Lanes::Value;
@@ -111,9 +111,9 @@ class PreciseProof {
   static constexpr double greatest_size = 0x1p104;
 
   using Pair = std::array<std::size_t, 2>;
-  static constexpr std::size_t corners = kind == Kind::vertex_face ? 3 : 4;
+  static constexpr std::size_t corners = kind == ContactKind::vertex_face ? 3 : 4;
   static constexpr std::array<Pair, corners> corner_points = [] {
-    if constexpr (kind == Kind::vertex_face) {
+    if constexpr (kind == ContactKind::vertex_face) {
       return std::array<Pair, 3>{{{0, 1}, {0, 2}, {0, 3}}};
     } else {
       return std::array<Pair, 4>{{{0, 2}, {1, 2}, {1, 3}, {0, 3}}};
@@ -121,8 +121,8 @@ class PreciseProof {
   }();
   /// r, p, q of touchstone/filters/polynomial_expressions.hpp.
   static constexpr std::array<Pair, 3> vectors =
-      kind == Kind::vertex_face ? std::array<Pair, 3>{{{0, 1}, {2, 1}, {3, 1}}}
-                                : std::array<Pair, 3>{{{0, 2}, {0, 1}, {3, 2}}};
+      kind == ContactKind::vertex_face ? std::array<Pair, 3>{{{0, 1}, {2, 1}, {3, 1}}}
+                                       : std::array<Pair, 3>{{{0, 2}, {0, 1}, {3, 2}}};
 
   static Precise exact(const Value& x) { return {x, Value(0.0)}; }
 
@@ -161,16 +161,16 @@ class PreciseProof {
 
 /// The closest parameters exactly in F's domain that are multiples of 2^-52, so that 1 − u is
 /// exact.
-template <Kind kind, class Value>
+template <ContactKind kind, class Value>
 inline std::array<Value, 2> in_domain(const Value& u, const Value& v) {
   const Value zero(0.0), one(1.0);
   const Value inside_u = to_exact(max(min(u, one), zero));
   const Value inside_v = to_exact(max(min(v, one), zero));
-  return {inside_u, kind == Kind::vertex_face ? min(inside_v, one - inside_u) : inside_v};
+  return {inside_u, kind == ContactKind::vertex_face ? min(inside_v, one - inside_u) : inside_v};
 }
 
 /// Searches the enclosures of the times of impact of `width` queries.
-template <class Lanes, Kind kind, Norm norm>
+template <class Lanes, ContactKind kind, Norm norm>
 class Arrival {
  public:
   using Value = typename Lanes::Value;
@@ -251,7 +251,7 @@ class Arrival {
   Value half_width_;
 };
 
-template <class Lanes, Kind kind, Norm norm, class Source>
+template <class Lanes, ContactKind kind, Norm norm, class Source>
 class DistanceEnclosure {
  public:
   /// \param unproved The queries without an enclosure.

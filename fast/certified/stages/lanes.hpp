@@ -95,7 +95,7 @@ using FormatOf = StageFormat<typename Value::Scalar>;
 
 /// Items of the block.
 template <class Item>
-using List = KernelOutput::List<Item>;
+using List = KernelList<Item>;
 /// Queries of the block, by their indices.
 using Indices = List<std::uint32_t>;
 
@@ -251,10 +251,11 @@ inline Value to_exact(const Value& time) {
 /// The points of a query: at t=0, then at t=1.
 using Points = std::array<const double*, query_points>;
 
-/// An array of queries.
+/// An array of queries or cells.
 template <class Lanes>
 struct FromArray {
-  static Points points(const KernelInput& input, std::size_t i) {
+  template <class Input>
+  static Points points(const Input& input, std::size_t i) {
     const double* const first = input.queries[i].coordinates.data();
     Points result;
     for (std::size_t k = 0; k < query_points; ++k) result[k] = first + 3 * k;
@@ -274,12 +275,12 @@ struct FromOne : FromArray<Lanes> {
 };
 
 /// Pairs of primitives of a mesh.
-template <class Lanes, Kind kind>
+template <class Lanes, ContactKind kind>
 struct FromPairs {
   /// The vertices of a pair.
   static std::array<std::int32_t, moving_points> vertices(const KernelInput& input, std::size_t i) {
     const auto [first, second] = input.pairs[i];
-    if constexpr (kind == Kind::vertex_face) {
+    if constexpr (kind == ContactKind::vertex_face) {
       const Face& face = input.faces[static_cast<std::size_t>(second)];
       return {first, face[0], face[1], face[2]};
     } else {
@@ -315,10 +316,10 @@ inline std::array<Vector<typename Lanes::Value>, query_points> in_all_lanes(cons
   return result;
 }
 
-/// The points of `width` queries, lane by lane. Lanes beyond `count` repeat the last. A source
-/// whose points are not in memory as such has a function for it.
-template <class Lanes, class Source>
-inline std::array<Vector<typename Lanes::Value>, query_points> load(const KernelInput& input,
+/// The points of `width` queries or cells, lane by lane. Lanes beyond `count` repeat the last. A
+/// source whose points are not in memory as such has a function for it.
+template <class Lanes, class Source, class Input>
+inline std::array<Vector<typename Lanes::Value>, query_points> load(const Input& input,
                                                                     const std::uint32_t* indices,
                                                                     std::size_t count) {
   if constexpr (requires { Source::load(input, indices, count); }) {

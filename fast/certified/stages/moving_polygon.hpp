@@ -28,7 +28,7 @@ namespace touchstone::fast::kernel {
 
 /// The input of MovingPolygon: the first primitive's points, then the second's, as differences from
 /// the second's first point, which is omitted; each at t=0 and t=1.
-template <class Value, Kind kind>
+template <class Value, ContactKind kind>
 struct PolygonVectors {
   std::array<std::array<Vector<Value>, 2>, 3> vectors;
   Value magnitude;  ///< greatest of their coordinates
@@ -44,7 +44,7 @@ struct PolygonVectors {
 };
 
 /// The moving corners and their proved properties.
-template <class Lanes, Kind kind, Norm norm>
+template <class Lanes, ContactKind kind, Norm norm>
 class MovingPolygon {
  public:
   using Value = typename Lanes::Value;
@@ -163,7 +163,7 @@ class MovingPolygon {
   /// The indices of the two differences whose difference is the corner; the second is `differences`
   /// if the corner equals the first.
   static constexpr std::array<std::size_t, 2> points_of(std::size_t corner) {
-    if constexpr (kind == Kind::vertex_face) {
+    if constexpr (kind == ContactKind::vertex_face) {
       constexpr std::array<std::array<std::size_t, 2>, 3> all{{{0, 3}, {0, 1}, {0, 2}}};
       return all[corner];
     } else {

@@ -29,9 +29,9 @@ enum Place : std::size_t { r, p, q, a, e };
 inline constexpr std::size_t vector_count = 5;
 
 /// The points whose differences they are.
-template <Kind kind>
+template <ContactKind kind>
 consteval std::array<std::array<std::size_t, 2>, vector_count> ends_of_vectors() {
-  if constexpr (kind == Kind::vertex_face) return {{{0, 1}, {2, 1}, {3, 1}, {2, 0}, {3, 2}}};
+  if constexpr (kind == ContactKind::vertex_face) return {{{0, 1}, {2, 1}, {3, 1}, {2, 0}, {3, 2}}};
   return {{{0, 2}, {0, 1}, {3, 2}, {2, 1}, {3, 0}}};
 }
 
@@ -40,7 +40,7 @@ template <class Value>
 using Ends = std::array<std::array<Vector<Value>, 2>, vector_count>;
 
 /// The moving vectors of queries at t=0 and t=1, from their points.
-template <Kind kind, class Coordinate>
+template <ContactKind kind, class Coordinate>
 inline Ends<DifferenceOf<Coordinate>> vectors_of(
     const std::array<Vector<Coordinate>, query_points>& x) {
   constexpr auto ends = ends_of_vectors<kind>();

@@ -32,7 +32,7 @@ inline Value to_short(const Value& time) {
 
 /// Tests one of the intervals. \param unclear The queries whose zero is in it but whose
 /// orientations prove nothing. \param undecided The queries whose zero may be outside.
-template <class Lanes, bool separated, Kind kind, class Source>
+template <class Lanes, bool separated, ContactKind kind, class Source>
 inline void zero_stage(const KernelInput& input, double half, const Crossings& zeros,
                        Crossings& contacts, Crossings& unclear, Indices& undecided, Indices& far,
                        KernelOutput& output) {
@@ -75,7 +75,7 @@ inline void zero_stage(const KernelInput& input, double half, const Crossings& z
 }
 
 /// Tests both intervals. \param hopeless The queries that bisection would not decide either.
-template <class Lanes, bool separated, Kind kind, class Source>
+template <class Lanes, bool separated, ContactKind kind, class Source>
 inline void zero_stages(const KernelInput& input, const Crossings& zeros, Crossings& contacts,
                         Indices& undecided, Indices& hopeless, Indices& far, KernelOutput& output) {
   Crossings unclear, still_unclear;

@@ -34,9 +34,9 @@ struct Orientation {
 };
 
 /// The orientations, proportional to the barycentric v, u, 1−u−v or v, u, 1−u, 1−v in this order.
-template <Kind kind>
+template <ContactKind kind>
 consteval auto orientations() {
-  if constexpr (kind == Kind::vertex_face) {
+  if constexpr (kind == ContactKind::vertex_face) {
     return std::array<Orientation, 3>{{{r, p, false}, {r, q, true}, {a, e, true}}};
   } else {
     return std::array<Orientation, 4>{{{r, p, false}, {r, q, true}, {a, q, true}, {e, p, false}}};
@@ -45,13 +45,13 @@ consteval auto orientations() {
 
 /// The inputs of the queries' bounds: the bound of det, and for each orientation the product of its
 /// vectors' magnitudes.
-template <class Value, Kind kind>
+template <class Value, ContactKind kind>
 struct Bounds {
   Value determinant;
   std::array<Value, orientations<kind>().size()> orientation_scale;
 };
 
-template <Kind kind, bool separated, class Value>
+template <ContactKind kind, bool separated, class Value>
 inline Bounds<Value, kind> bounds_of(const Ends<Value>& unit, const Value& distance) {
   constexpr auto all_orientations = orientations<kind>();
   using Scalar = typename Value::Scalar;
@@ -73,7 +73,7 @@ struct OrientationTest {
   MaskOf<Value> agree;    ///< all keep one sign
 };
 
-template <Kind kind, class Value>
+template <ContactKind kind, class Value>
 inline OrientationTest<Value> test_orientations(const Vector<Value>& d, const Ends<Value>& at,
                                                 const Bounds<Value, kind>& bounds) {
   using Format = FormatOf<Value>;
@@ -117,7 +117,7 @@ struct Examination {
 };
 
 /// \param at The vectors at the ends of the interval.
-template <Kind kind, class Value>
+template <ContactKind kind, class Value>
 inline Examination<Value> examine(const Ends<Value>& at, const Bounds<Value, kind>& bounds) {
   const Normals<Value> normals(at);
   const std::array<Value, 4> coefficients = determinant_coefficients(at, normals);
@@ -147,7 +147,7 @@ inline unsigned far_lanes(const KernelInput& input, const Ends<Value>& unit) {
 /// \param zeros The queries of which only that zero can be a contact.
 /// \param undecided The queries of which nothing is proved.
 /// \param far The queries whose distance is too large a shift.
-template <class Lanes, bool separated, Kind kind, class Source>
+template <class Lanes, bool separated, ContactKind kind, class Source>
 inline void orientation_stage(const KernelInput& input, const Indices& mixed, Crossings& contacts,
                               Crossings& zeros, Indices& undecided, Indices& far,
                               KernelOutput& output) {

@@ -36,12 +36,12 @@ inline constexpr double double_double_underflow =
     filters::determinant_end_double_double.underflow(StageFormat<double>::limits.difference);
 static_assert(StageFormat<double>::limits.difference <=
               filters::determinant_end_double_double.greatest_x);
-/// The factor of the bounds of det that also covers a part of det at t=0 (inversion.hpp).
+/// The factor of the bounds of det that also covers a part of det at t=0 (fast/cells/stages.hpp).
 inline constexpr double kept_growth = 5.0;
 
 /// det in double-double, at any time; less the part of det at t=0 that is to be kept, if any
-/// (inversion.hpp has the bound).
-template <class Value, bool separated, Kind kind>
+/// (fast/cells/stages.hpp has the bound).
+template <class Value, bool separated, ContactKind kind>
 class PreciseDeterminant {
  public:
   PreciseDeterminant(const std::array<Vector<Value>, query_points>& x, const Value& distance,
@@ -97,7 +97,7 @@ class PreciseDeterminant {
 
 /// u and v of the contact at a time, from the orientations, which are proportional to the
 /// barycentric coordinates.
-template <Kind kind, class Value>
+template <ContactKind kind, class Value>
 inline std::array<Value, 2> contact(const std::array<Vector<Value>, query_points>& x,
                                     const Value& time) {
   constexpr auto ends = ends_of_vectors<kind>();
@@ -115,7 +115,7 @@ inline std::array<Value, 2> contact(const std::array<Vector<Value>, query_points
     o[i] = max(is_negative ? Value(0.0) - value : value, Value(0.0));
   }
   const Value one(1.0);
-  if constexpr (kind == Kind::vertex_face) {
+  if constexpr (kind == ContactKind::vertex_face) {
     const Value sum = o[0] + o[1] + o[2];
     const Value u = min(o[1] / sum, one);
     return {u, min(o[0] / sum, one - u)};
@@ -124,12 +124,13 @@ inline std::array<Value, 2> contact(const std::array<Vector<Value>, query_points
   }
 }
 
-template <class Lanes, bool separated, Kind kind, class Source>
+template <class Lanes, bool separated, ContactKind kind, class Source>
 class Refinement {
  public:
   /// \param unproved The queries without an enclosure.
-  static void run(const KernelInput& input, const Crossings& crossings, Indices& unproved,
-                  KernelOutput& output) {
+  template <class Input, class Output>
+  static void run(const Input& input, const Crossings& crossings, Indices& unproved,
+                  Output& output) {
     Approaches approaches;
     approaches.count = 0;
     for (std::size_t first = 0; first < crossings.count; first += Lanes::width) {
@@ -147,12 +148,40 @@ class Refinement {
   using Value = typename Lanes::Value;
   using Mask = typename Lanes::Mask;
   using Determinant = PreciseDeterminant<Value, separated, kind>;
+  using PointsOfLanes = std::array<Vector<Value>, query_points>;
+  using Numbered = std::array<std::uint32_t, Lanes::width>;
 
-  static void refine_lanes(const KernelInput& input, const Crossing* crossings, std::size_t count,
-                           Approaches& approaches, Indices& unproved, KernelOutput& output) {
+  /// The determinant of contacts, or of a volume.
+  static Determinant determinant_of(const KernelInput& input, const PointsOfLanes& points) {
+    return {points, Value(input.separation.distance), 0.0};
+  }
+  static Determinant determinant_of(const CellInput& input, const PointsOfLanes& points) {
+    return {points, Value(0.0), input.kept_volume};
+  }
+
+  static void store(KernelOutput& output, const Numbered& indices, unsigned lanes,
+                    const std::array<Value, 2>& enclosure, const PointsOfLanes& points,
+                    const Value& time) {
+    store_impacts<Lanes>(output, indices, lanes, enclosure, contact<kind>(points, time));
+  }
+  static void store(CellOutput& output, const Numbered& indices, unsigned lanes,
+                    const std::array<Value, 2>& enclosure, const PointsOfLanes& /*points*/,
+                    const Value& /*time*/) {
+    alignas(64) std::array<Numbers<Lanes>, 2> rows;
+    enclosure[0].store(rows[0].data());
+    enclosure[1].store(rows[1].data());
+    for_each_lane(lanes, [&](std::size_t lane) {
+      append<Lanes>(output.inversions,
+                    KernelInversion{indices[lane], rows[0][lane], rows[1][lane]});
+    });
+  }
+
+  template <class Input, class Output>
+  static void refine_lanes(const Input& input, const Crossing* crossings, std::size_t count,
+                           Approaches& approaches, Indices& unproved, Output& output) {
     const CrossingLanes<Lanes> lanes(crossings, count);
-    const auto points = load<Lanes, Source>(input, lanes.indices.data(), Lanes::width);
-    const Determinant determinant(points, Value(input.separation.distance), input.kept_volume);
+    const PointsOfLanes points = load<Lanes, Source>(input, lanes.indices.data(), Lanes::width);
+    const Determinant determinant = determinant_of(input, points);
     const Value half_width(0.4 * input.toi_tolerance);
     const Value zero = lanes.cubic.zero(0x1p-26);
     const Value newton = lanes.begin + lanes.length * zero;
@@ -169,8 +198,7 @@ class Refinement {
       found = found.or_else(Enclosure(determinant, lanes, found.corrected(), half_width));
     }
     const unsigned proved = valid_bits(found.proved, count);
-    store_impacts<Lanes>(output, lanes.indices, proved, {found.lower, found.upper},
-                         contact<kind>(points, found.toi));
+    store(output, lanes.indices, proved, {found.lower, found.upper}, points, found.toi);
     if constexpr (separated) {
       keep_approaches(lanes, determinant, zero, first_lanes<Lanes>(count) & ~proved, approaches);
     } else {

@@ -64,7 +64,7 @@ inline void fill_lanes(RoundedVertices& rounded, std::size_t count) {
 }
 
 /// All pairs of a block.
-template <class Lanes, Kind kind>
+template <class Lanes, ContactKind kind>
 inline void find_rounded(const KernelInput& input, RoundedVertices& rounded, Indices& open) {
   for (std::size_t i = 0; i < input.count; ++i) {
     const auto vertices = FromPairs<Lanes, kind>::vertices(input, i);
@@ -104,7 +104,7 @@ inline Value time_of(int part) {
 }
 
 /// The lanes that may have a contact by the tests of determinant and orientation on each part.
-template <class Lanes, Kind kind>
+template <class Lanes, ContactKind kind>
 inline unsigned possible_by_parts(const Ends<typename Lanes::Single>& unit,
                                   const typename Lanes::Single& distance) {
   using Value = typename Lanes::Single;
@@ -120,7 +120,7 @@ inline unsigned possible_by_parts(const Ends<typename Lanes::Single>& unit,
 /// The same by the theorem of moving_polygon.hpp, with the directions of the closest points in L∞
 /// at both ends of each part, or at t=0 alone if nothing later counts: where the distance is too
 /// large for determinants.
-template <class Lanes, Kind kind>
+template <class Lanes, ContactKind kind>
 inline unsigned possible_by_distance(
     const std::array<Vector<FixedPointCoordinate<Lanes>>, query_points>& points, float distance,
     double t_limit) {
@@ -183,7 +183,7 @@ inline void keep(RoundedVertices& rounded, Indices& open, const Possible& possib
 /// Directions after the sum of the corners: of one, two and three, two took the least time.
 inline constexpr int more_directions = 2;
 
-template <class Lanes, bool separated, Kind kind>
+template <class Lanes, bool separated, ContactKind kind>
 inline void single_precision_tests(const KernelInput& input, Indices& open) {
   using Value = typename Lanes::Single;
   RoundedVertices rounded;
@@ -211,7 +211,7 @@ inline void single_precision_tests(const KernelInput& input, Indices& open) {
   });
 }
 
-template <class Lanes, bool separated, Kind kind>
+template <class Lanes, bool separated, ContactKind kind>
 TOUCHSTONE_INLINE_CALLS inline void single_precision_tests_on_vectors(const KernelInput& input,
                                                                       Indices& open) {
   single_precision_tests<Lanes, separated, kind>(input, open);
@@ -219,7 +219,7 @@ TOUCHSTONE_INLINE_CALLS inline void single_precision_tests_on_vectors(const Kern
 
 /// (Calls without vectors stay: to inline them would take minutes.)
 /// \param open The queries that are not decided; the others have no contact.
-template <class Lanes, bool separated, Kind kind>
+template <class Lanes, bool separated, ContactKind kind>
 inline void single_precision_stage(const KernelInput& input, Indices& open) {
   if constexpr (Lanes::width > 1) {
     single_precision_tests_on_vectors<Lanes, separated, kind>(input, open);

@@ -23,7 +23,7 @@
 ///                      1, 1, -2, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
 ///   const Separation quarter{.distance = 0.25, .norm = Norm::l2};
 ///   const fast::CertifiedResult near =
-///       fast::solve(Kind::vertex_face, query, {.separation = quarter});
+///       fast::solve(ContactKind::vertex_face, query, {.separation = quarter});
 ///   std::printf("within 1/4 at t = %g\n", near.toi_upper);
 /// }
 /// // t = 0.333333333333, u = 0.25, v = 0.25
@@ -110,23 +110,20 @@ struct CertifiedResult {
   /// yes or no, always right; error if a coordinate that has an effect is not finite, or a weight
   /// not positive and finite. Never undecided.
   Verdict verdict = Verdict::error;
-  bool is_exact = false;  ///< true if the exact stage decided
-  /// Of an element: the sign of its volume at t=0, 1, 0 (flat) or −1 (inverted); else 0.
-  std::int8_t start = 0;
+  bool is_exact = false;         ///< true if the exact stage decided
   double toi_lower = no_number;  ///< with yes: below the time of impact; 0 if that is 0
   double toi_upper = no_number;  ///< with yes: not below the time of impact; may be above t_max
   /// The parameters, with yes, in F's domain, of the contact or of the nearest points at that time.
-  /// An approximation without an error bound. NaN of an element.
+  /// An approximation without an error bound.
   double u = no_number;
   double v = no_number;
 };
 
 // ---- Queries ------------------------------------------------------------------------------------
 
-/// Decides one query. An element, on straight lines, collides if it inverts
-/// (touchstone/element.hpp); both ends of its first time are 0 unless `start` is 1.
-/// \throws std::invalid_argument for options out of range, such as a separation of an element.
-[[nodiscard]] CertifiedResult solve(Kind kind, const Query& query,
+/// Decides one query.
+/// \throws std::invalid_argument for options out of range.
+[[nodiscard]] CertifiedResult solve(ContactKind kind, const Query& query,
                                     const CertifiedOptions& options = {});
 
 /// Decides query i in results[i].

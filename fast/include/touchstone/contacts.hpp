@@ -99,9 +99,9 @@
 /// time is below two of the least doubles. There are no other tolerances or corrections: a step
 /// size of 0 always comes with a status that explains it.
 ///
-/// Elements with volumes (Mesh) limit it, too: each keeps more than the part `kept_volume`
+/// Cells (Mesh) limit it, too: each keeps more than the part `kept_volume`
 /// of its volume at the start. V(t) − f V(0) is a cubic polynomial, whose sign is decided exactly,
-/// like that of V; f = 0 says that no element inverts.
+/// like that of V; f = 0 says that no cell inverts.
 ///
 /// **Radii** of a step's groups (touchstone/step.hpp) thicken its primitives. The distance of a
 /// pair is then less by its thickness, and negative where thick primitives overlap; it is enclosed
@@ -136,14 +136,15 @@ struct Distance {
 
 /// The distance of a query's primitives at the time t.
 /// \throws std::invalid_argument unless 0 ≤ t ≤ 1; std::domain_error if a coordinate is not finite.
-[[nodiscard]] Distance distance(Kind kind, const Query& query, double t, Norm norm = Norm::l2);
+[[nodiscard]] Distance distance(ContactKind kind, const Query& query, double t,
+                                Norm norm = Norm::l2);
 
 /// Writes the distance of query i into results[i].
 /// \param max_threads Maximum number of threads; 0 (all_cores): one for each core that the process
 /// may use.
 /// \throws as above, the std::domain_error naming a query; std::invalid_argument for spans of
 /// different lengths or a negative number of threads.
-void distances(Kind kind, std::span<const Query> queries, double t, Norm norm,
+void distances(ContactKind kind, std::span<const Query> queries, double t, Norm norm,
                std::span<Distance> results, int max_threads = all_cores);
 
 /// The part of a distance d that must be left: more than least + part · (d − least).
@@ -157,12 +158,12 @@ struct KeptDistance {
 /// t_max in [0,1], whether the expression is computed in doubles or exactly; then d is more than
 /// `least`. False shows nothing. Much faster than `distance`: call it first
 /// (fast/distance/kept_distance.cpp). Never throws; false if a coordinate is not finite.
-[[nodiscard]] bool keeps_distance(Kind kind, const Query& query, double t_max,
+[[nodiscard]] bool keeps_distance(ContactKind kind, const Query& query, double t_max,
                                   const KeptDistance& kept);
 
 /// A pair of a step with its distance.
 struct PairDistance {
-  PairKind kind = PairKind::vertex_face;
+  ContactKind kind = ContactKind::vertex_face;
   IndexPair pair{};
   Distance distance;
 
@@ -220,7 +221,7 @@ struct ActiveContact : StepCollision {
 /// The contact of a pair at a given time, at any distance: for pairs and times that another solver
 /// has found. Its toi_lower and toi_upper are t.
 /// \throws std::invalid_argument unless 0 ≤ t ≤ 1; std::out_of_range for numbers out of range.
-[[nodiscard]] ActiveContact contact_at(const Step& step, PairKind kind, const IndexPair& pair,
+[[nodiscard]] ActiveContact contact_at(const Step& step, ContactKind kind, const IndexPair& pair,
                                        double t);
 
 /// The contacts of every pair of the step that comes within η, the distance of `separation`, up to
@@ -245,17 +246,17 @@ enum class StartDistance : std::uint8_t {
 
 enum class LineSearchStatus : std::uint8_t {
   whole,       ///< the whole step is allowed
-  limited,     ///< a pair or an element limits the step
+  limited,     ///< a pair or a cell limits the step
   in_contact,  ///< a pair is in contact at the start; the step size is 0
   too_small,   ///< the step size, or a distance s as above, would be below the least doubles; it is
                ///< 0
-  inverted,    ///< an element is flat or inverted at the start; the step size is 0
+  inverted,    ///< a cell is flat or inverted at the start; the step size is 0
 };
 
 struct LineSearchOptions {
   Norm norm = Norm::l2;
   StartDistance start_distance = StartDistance::of_scene;
-  /// The part of its volume at the start of which an element must keep more, in [0,1).
+  /// The part of its volume at the start of which a cell must keep more, in [0,1).
   double kept_volume = 0.0;
 };
 
@@ -271,14 +272,14 @@ struct LineSearchLimit {
   /// contact at the start. too_small: the pairs that limit the step at a time or a distance too
   /// small for doubles.
   std::vector<StepCollision> pairs = {};
-  /// Likewise the elements: those that limit the step first, are flat or inverted at the start, or
+  /// Likewise the cells: those that limit the step first, are flat or inverted at the start, or
   /// limit it at a time too small for doubles. Their times are those at which no more than the kept
   /// part is left.
   std::vector<StepInversion> inversions = {};
 };
 
 /// The greatest step size, rounded down by at most the step's toi_tolerance, up to which all
-/// primitives stay at least p times as far apart as at the start, and all elements keep more than
+/// primitives stay at least p times as far apart as at the start, and all cells keep more than
 /// the part of their volume. The separation of the step has no effect.
 /// \param p more than 0 and at most 1 − 2^-50.
 /// \throws std::invalid_argument for another p, or a kept_volume out of range.

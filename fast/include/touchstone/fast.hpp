@@ -7,6 +7,7 @@
 #include "touchstone/certified.hpp"
 #include "touchstone/contacts.hpp"
 #include "touchstone/intersections.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/query.hpp"
 #include "touchstone/step.hpp"

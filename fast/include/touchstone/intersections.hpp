@@ -54,7 +54,7 @@
 
 namespace touchstone::fast {
 
-enum class ElementKind : std::uint8_t {
+enum class PrimitiveKind : std::uint8_t {
   face,   ///< its number among the faces
   edge,   ///< an edge, mostly of no face; its number among the edges
   point,  ///< a vertex of no face and no edge; its own number
@@ -75,7 +75,7 @@ enum class IntersectionKind : std::uint8_t {
 inline constexpr std::size_t intersection_kinds = 9;
 
 /// "face", "edge", "point".
-[[nodiscard]] std::string_view to_string(ElementKind kind);
+[[nodiscard]] std::string_view to_string(PrimitiveKind kind);
 /// "duplicates", "folded faces", "coplanar overlap", "edge through face", "vertex in face", "edges
 /// overlap", "edges cross", "vertex on edge", "vertices coincide".
 [[nodiscard]] std::string_view to_string(IntersectionKind kind);
@@ -91,7 +91,7 @@ struct PointEnclosure {
 
 /// Two elements that intersect: the one of the earlier kind first, then that of the smaller number.
 struct Intersection {
-  std::array<ElementKind, 2> elements{};
+  std::array<PrimitiveKind, 2> elements{};
   IndexPair numbers{};
   IntersectionKind kind = IntersectionKind::duplicates;
   /// The least and the greatest corner of the common part, by x, y and z in turn: the ends of a

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -18,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "touchstone/cell.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone {
@@ -39,7 +41,7 @@ namespace fast {
 using Edge = std::array<std::int32_t, 2>;
 /// The three vertices of a face.
 using Face = std::array<std::int32_t, 3>;
-/// The four vertices of a tetrahedron, in the order of touchstone/element.hpp.
+/// The four vertices of a tetrahedron, in the order of touchstone/cell.hpp.
 using Tetrahedron = std::array<std::int32_t, 4>;
 /// The two indices of a pair. vertex_face: a vertex and a face; edge_edge: two edges.
 using IndexPair = std::array<std::int32_t, 2>;
@@ -152,12 +154,40 @@ struct Mesh {
   std::vector<Face> faces = {};
   /// Vertices that are part of the scene in any case, with or without an edge or a face.
   std::vector<std::int32_t> points = {};
-  /// Elements whose volume is to stay positive. They do not collide, and intersections at rest do
-  /// not depend on them; nor are their vertices part of the scene by this.
+  /// Cells, whose volume is to stay positive. They do not collide, and intersections at rest do not
+  /// depend on them; nor are their vertices part of the scene by this.
   std::vector<Tetrahedron> tetrahedra = {};
-  /// Elements whose area in the plane of x and y is to stay positive, likewise; the vertices' third
+  /// Cells whose area in the plane of x and y is to stay positive, likewise; the vertices' third
   /// coordinates have no effect on it.
   std::vector<Face> plane_triangles = {};
+
+ private:
+  /// The result of visit(cells) of a kind.
+  template <class Self, class Visit>
+  static auto on_cells(Self& self, CellKind kind, const Visit& visit) {
+    return kind == CellKind::tetrahedron ? visit(self.tetrahedra) : visit(self.plane_triangles);
+  }
+
+ public:
+  /// The vertices of all cells of a kind, one cell after the other, and the number of these cells.
+  [[nodiscard]] std::span<const std::int32_t> corners_of(CellKind kind) const {
+    return on_cells(*this, kind, [](const auto& cells) -> std::span<const std::int32_t> {
+      if (cells.empty()) return {};
+      return {cells.front().data(), cells.size() * cells.front().size()};
+    });
+  }
+  [[nodiscard]] std::size_t count_of(CellKind kind) const {
+    return corners_of(kind).size() / record_of(kind).point_count;
+  }
+  /// Appends cells, by their vertices as above.
+  void add_cells(CellKind kind, std::span<const std::int32_t> corners) {
+    on_cells(*this, kind, [&](auto& cells) {
+      const std::size_t count = record_of(kind).point_count;
+      for (std::size_t i = 0; i + count <= corners.size(); i += count) {
+        std::ranges::copy(corners.subspan(i, count), cells.emplace_back().begin());
+      }
+    });
+  }
 };
 
 /// Two groups, in either order, which may be the same, and the thickness of their pairs.

@@ -22,7 +22,7 @@
 ///
 ///   if (step.is_free()) return 0;
 ///   for (const fast::StepCollision& one : step.collisions()) {
-///     if (one.kind == fast::PairKind::edge_edge) continue;
+///     if (one.kind == ContactKind::edge_edge) continue;
 ///     std::printf("vertex %d meets face %d at %.6f\n", one.pair[0], one.pair[1], one.toi_lower);
 ///   }
 ///   const double first = step.earliest()->toi_upper;  // at most 1e-12 above the exact time
@@ -73,19 +73,19 @@
 /// limits of line searches are those of thick primitives, too (touchstone/contacts.hpp). A box is
 /// widened by its primitive's own part; the pairs of a block are decided by separations.
 ///
-/// **Elements.** A scene may have tetrahedra and triangles of the plane, whose volumes and areas
-/// are to stay positive (touchstone/element.hpp). One *inverts* if its volume is 0 or negative at
-/// some time; `earliest`, `is_free`, `starts_free`, `scaled`, `free_step_size` and limits of line
-/// searches count this as they count collisions, as exactly, and name the elements in lists of
-/// their own. An element that is flat or inverted at the start inverts at time 0, and its `start`
+/// **Cells.** A scene may have tetrahedra and triangles of the plane, whose volumes and areas are
+/// to stay positive (touchstone/cell.hpp). One *inverts* if its volume is 0 or negative at some
+/// time; `earliest`, `is_free`, `starts_free`, `scaled`, `free_step_size` and limits of line
+/// searches count this as they count collisions, as exactly, and name the cells in lists of
+/// their own. A cell that is flat or inverted at the start inverts at time 0, and its `start`
 /// says so. All are examined by their volumes on lanes before the search for pairs
-/// (docs/theory.md, section 10), which then ends at the first inversion. Elements do not collide;
+/// (docs/theory.md, section 10), which then ends at the first inversion. Cells do not collide;
 /// the surface of a solid does, if it is given as faces.
 ///
 /// **On curves** (Motion) a vertex stays in the box around its control points, so a primitive stays
 /// in the box around those of its vertices; the candidates are the pairs of primitives whose boxes
 /// are within the separation. The pairs that can collide are the same: the theorem is about the
-/// geometry at one time. Elements that invert, step sizes, queries of pairs, distances, contacts,
+/// geometry at one time. Cells, step sizes, queries of pairs, distances, contacts,
 /// limits of line searches and certificates need straight lines: on curves, they throw
 /// std::invalid_argument.
 ///
@@ -119,17 +119,6 @@ namespace touchstone::fast {
 class Scene;
 struct Intersection;
 
-/// The primitives of a pair, and the meaning of its two numbers.
-enum class PairKind : std::uint8_t {
-  vertex_face,    ///< a vertex and a face
-  edge_edge,      ///< two edges, the smaller number first
-  vertex_edge,    ///< a codimensional point and a codimensional edge
-  vertex_vertex,  ///< two codimensional points, the smaller number first
-};
-
-/// "vertex-face", "edge-edge", "vertex-edge", "vertex-vertex".
-[[nodiscard]] std::string_view to_string(PairKind kind);
-
 struct StepOptions {
   /// The options of the decisions. Primitives within the separation, and the thickness of their
   /// pair, are in contact. (`candidates` covers the whole step, whatever t_max is.)
@@ -148,7 +137,7 @@ struct StepOptions {
 
 /// Two primitives that collide.
 struct StepCollision {
-  PairKind kind = PairKind::vertex_face;
+  ContactKind kind = ContactKind::vertex_face;
   IndexPair pair{};
   /// Enclosure of the time of impact, as in CertifiedResult.
   double toi_lower = 0.0;
@@ -161,14 +150,14 @@ struct StepCollision {
   friend bool operator==(const StepCollision&, const StepCollision&) = default;
 };
 
-/// An element that inverts.
+/// A cell that inverts.
 struct StepInversion {
-  Kind kind = Kind::tetrahedron;  ///< or plane_triangle
-  std::int32_t element = 0;       ///< its number among those of its kind
-  /// The sign of its volume at the start, as in CertifiedResult: 0 (flat) and −1 (inverted) have
+  CellKind kind = CellKind::tetrahedron;
+  std::int32_t cell = 0;  ///< its number among those of its kind
+  /// The sign of its volume at the start, as in Inversion: 0 (flat) and −1 (inverted) have
   /// the time 0.
   std::int8_t start = 0;
-  /// Enclosure of the first time at which its volume is 0 or negative, as in CertifiedResult.
+  /// Enclosure of the first time at which its volume is 0 or negative, as in Inversion.
   double toi_lower = 0.0;
   double toi_upper = 0.0;
 
@@ -184,7 +173,7 @@ struct StepImpact {
   /// order of kinds and pairs, which is not that of their times. The first one is among them; the
   /// enclosures of several do not tell which it is.
   std::vector<StepCollision> pairs;
-  /// Likewise the candidates among the elements, tetrahedra first. One of the two lists may be
+  /// Likewise the candidates among the cells, tetrahedra first. One of the two lists may be
   /// empty.
   std::vector<StepInversion> inversions = {};
 
@@ -193,7 +182,7 @@ struct StepImpact {
 
 /// A part of a step's candidates.
 struct StepCandidates {
-  PairKind kind;
+  ContactKind kind;
   std::span<const IndexPair> pairs;  ///< at most about a thousand, valid during the call
 };
 
@@ -201,7 +190,7 @@ class Step {
  public:
   /// Makes a step.
   /// \pre If edges are given, those of all faces are among them.
-  /// \throws std::invalid_argument for invalid options, and for elements that invert on curves;
+  /// \throws std::invalid_argument for invalid options, and for cells on curves;
   /// std::domain_error naming the first vertex with a coordinate that is NaN or infinite, or a
   /// weight that is not positive and finite; std::out_of_range naming the first element with an
   /// index out of range; std::length_error if there are more than 2^31−1 elements of a kind.
@@ -240,7 +229,7 @@ class Step {
   /// pairs that are close in space are mostly close in the list.
   [[nodiscard]] std::vector<StepCollision> collisions() const;
 
-  /// All elements that invert, tetrahedra first, in the order of their numbers.
+  /// All cells that invert, tetrahedra first, in the order of their numbers.
   [[nodiscard]] std::vector<StepInversion> inversions() const;
 
   /// True if there is no collision and no inversion.
@@ -252,7 +241,7 @@ class Step {
   /// above holds. (touchstone/intersections.hpp; `Intersection` is declared there.)
   /// \throws Stopped
   [[nodiscard]] std::vector<Intersection> intersections_at_start() const;
-  /// True if there is no intersection at the start, and no element is flat or inverted there: of
+  /// True if there is no intersection at the start, and no cell is flat or inverted there: of
   /// inversions(), none has a `start` that is not 1. \throws Stopped
   [[nodiscard]] bool starts_free() const;
 
@@ -292,20 +281,17 @@ class Step {
   /// The vertices of a pair as input of the certified solver: a vertex and an edge as vertex and
   /// face (e0, e1, e0), two vertices as vertex and face (w, w, w).
   /// \throws std::out_of_range for numbers out of range.
-  [[nodiscard]] std::array<std::int32_t, moving_points> vertices_of(PairKind kind,
+  [[nodiscard]] std::array<std::int32_t, moving_points> vertices_of(ContactKind kind,
                                                                     const IndexPair& pair) const;
   /// A pair as a query, whose points are these vertices.
   /// \throws std::out_of_range for numbers out of range.
-  [[nodiscard]] Query query_of(PairKind kind, const IndexPair& pair) const;
-  /// An element of its kind as a query about a tetrahedron (touchstone/element.hpp).
+  [[nodiscard]] Query query_of(ContactKind kind, const IndexPair& pair) const;
+  /// A cell as a tetrahedron (touchstone/cell.hpp).
   /// \throws std::out_of_range for a number out of range.
-  [[nodiscard]] Query query_of(Kind kind, std::int32_t element) const;
+  [[nodiscard]] Query tetrahedron_of(CellKind kind, std::int32_t cell) const;
   /// The distance at which a pair is in contact: the step's separation and the thickness.
   /// \throws std::out_of_range for numbers out of range.
-  [[nodiscard]] Separation separation_of(PairKind kind, const IndexPair& pair) const;
-  [[nodiscard]] static Kind kind_of(PairKind kind) {
-    return kind == PairKind::edge_edge ? Kind::edge_edge : Kind::vertex_face;
-  }
+  [[nodiscard]] Separation separation_of(ContactKind kind, const IndexPair& pair) const;
 
   [[nodiscard]] const Motion& vertices() const;
   /// The options that make it anew: Step(vertices(), mesh(), options()).

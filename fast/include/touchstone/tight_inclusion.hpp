@@ -17,7 +17,8 @@
 ///   const Query query{{1, 1, 1,  0, 0, 0, 4, 0, 0, 0, 4, 0,
 ///                      1, 1, -2, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
 ///   const fast::TightInclusionResult result =
-///       fast::tight_inclusion(Kind::vertex_face, query, {.separation = {.distance = 1e-8}});
+///       fast::tight_inclusion(ContactKind::vertex_face, query, {.separation = {.distance =
+///       1e-8}});
 ///   if (result.verdict != fast::Verdict::yes) return 1;  // no: certainly no contact
 ///   std::printf("no contact before %.6f\n", result.toi);  // never late
 /// }
@@ -65,7 +66,8 @@ namespace touchstone::fast {
 /// one query or of a scene; the filter of a scene holds for all its queries. It is proved for the
 /// operations that run, and infinite if overflow could occur.
 /// \pre all arguments are finite and not negative.
-[[nodiscard]] std::array<double, 3> error_filter(Kind kind, const std::array<double, 3>& x_max,
+[[nodiscard]] std::array<double, 3> error_filter(ContactKind kind,
+                                                 const std::array<double, 3>& x_max,
                                                  double distance);
 
 // ---- Tight-Inclusion ----------------------------------------------------------------------------
@@ -110,7 +112,7 @@ struct TightInclusionResult {
 /// \throws std::invalid_argument for options out of range; std::runtime_error if the arithmetic is
 /// not strict (fast/platform/arithmetic_check.hpp); std::bad_alloc, which does not affect later
 /// calls.
-[[nodiscard]] TightInclusionResult tight_inclusion(Kind kind, const Query& query,
+[[nodiscard]] TightInclusionResult tight_inclusion(ContactKind kind, const Query& query,
                                                    const TightInclusionOptions& options = {});
 
 /// Solves query i in results[i], in this thread: on straight lines as above, or on curves of degree

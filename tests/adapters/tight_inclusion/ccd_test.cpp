@@ -26,14 +26,14 @@ struct Said {
   double tolerance = -1.0;
 };
 
-Said ask(Kind kind, const Query& query, double ms = 0.0, double t_max = 1.0) {
+Said ask(ContactKind kind, const Query& query, double ms = 0.0, double t_max = 1.0) {
   const auto p = [&](std::size_t i) {
     return Vector3(query.coordinates[3 * i], query.coordinates[3 * i + 1],
                    query.coordinates[3 * i + 2]);
   };
   const ticcd::Array3 err(-1, -1, -1);
   Said said;
-  said.collision = kind == Kind::vertex_face
+  said.collision = kind == ContactKind::vertex_face
                        ? ticcd::vertexFaceCCD(p(0), p(1), p(2), p(3), p(4), p(5), p(6), p(7), err,
                                               ms, said.toi, 1e-6, t_max, 10, said.tolerance)
                        : ticcd::edgeEdgeCCD(p(0), p(1), p(2), p(3), p(4), p(5), p(6), p(7), err, ms,
@@ -48,7 +48,7 @@ TEST(TightInclusionAdapter, AnswersAsTheSolver) {
   for (int i = 0; i < 2000; ++i) {
     Query query;
     for (double& x : query.coordinates) x = random.between(-3, 3);
-    const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
+    const ContactKind kind = i % 2 == 0 ? ContactKind::vertex_face : ContactKind::edge_edge;
     const double ms = i % 3 == 0 ? 0.5 : 0.0, t_max = i % 5 == 0 ? 0.5 : 1.0;
     const fast::CertifiedResult expected = fast::solve(
         kind, query, {.t_max = t_max, .separation = {.distance = ms, .norm = Norm::linf}});
@@ -70,14 +70,16 @@ TEST(TightInclusionAdapter, AnswersAsTheSolver) {
 
 TEST(TightInclusionAdapter, StopsWhatIsNotFinite) {
   Query query{{9, 9, 9, 0, 0, 0, 4, 0, 0, 0, 4, 0, 9, 9, 8, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
-  EXPECT_FALSE(ask(Kind::vertex_face, query).collision);
+  EXPECT_FALSE(ask(ContactKind::vertex_face, query).collision);
   query.coordinates[0] = std::numeric_limits<double>::quiet_NaN();
-  const Said said = ask(Kind::vertex_face, query);
+  const Said said = ask(ContactKind::vertex_face, query);
   EXPECT_TRUE(said.collision);
   EXPECT_EQ(said.toi, 0.0);
   query.coordinates[0] = 9;
-  EXPECT_THROW(static_cast<void>(ask(Kind::vertex_face, query, -1.0)), std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(ask(Kind::vertex_face, query, 0.0, 2.0)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(ask(ContactKind::vertex_face, query, -1.0)),
+               std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(ask(ContactKind::vertex_face, query, 0.0, 2.0)),
+               std::invalid_argument);
 }
 
 /// δ / (3 κ), with κ the greatest change of F along t, u or v ([wang2021], section 4.2).
@@ -104,8 +106,9 @@ TEST(TightInclusionFilter, IsThatOfTheGreatestCoordinates) {
     for (const bool is_separated : {false, true}) {
       const ticcd::Array3 filter = ticcd::get_numerical_error(
           {Vector3(-8, 1, 0), Vector3(3, -2, 1e9)}, is_vertex_face, is_separated);
-      const auto expected = fast::error_filter(is_vertex_face ? Kind::vertex_face : Kind::edge_edge,
-                                               {8, 2, 1e9}, is_separated ? 1e-300 : 0.0);
+      const auto expected =
+          fast::error_filter(is_vertex_face ? ContactKind::vertex_face : ContactKind::edge_edge,
+                             {8, 2, 1e9}, is_separated ? 1e-300 : 0.0);
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
         EXPECT_EQ(filter[axis], expected[static_cast<std::size_t>(axis)]);
       }

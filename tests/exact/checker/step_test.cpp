@@ -163,8 +163,8 @@ const std::vector<Alteration>& of_spheres() {
 
 /// A tetrahedron whose volume is 1 - t/2, and a triangle in the plane whose area is that of
 /// (1-3t)² + 2^-258, which needs three subintervals.
-const std::string elements =
-    "step elements\nvertices 7\n0 0 0 0 0 0\n1 0 0 1 0 0\n0 1 0 0 1 0\n0 0 1 0 0 1/2\n"
+const std::string cells =
+    "step cells\nvertices 7\n0 0 0 0 0 0\n1 0 0 1 0 0\n0 1 0 0 1 0\n0 0 1 0 0 1/2\n"
     "0 0 7 0 0 -9\n1 0x1p-129 0 -2 0x1p-129 3\n-0x1p-129 1 2 -0x1p-129 -2 0\nfaces 0\nedges "
     "0\npoints 0\ngroups 0\napart 0\nradii 0\nseparations 0\ntetrahedra 1\n0 1 2 3\n"
     "plane_triangles 1\n4 5 6\nseparation 0 l2\nclaim no_contact 1\n" +
@@ -172,8 +172,8 @@ const std::string elements =
     "tetrahedron\nplane_triangle\n0\nseparate 0 1/4 face -\nseparate 1/4 3/8 face -\n"
     "separate 3/8 1 face -\nend\n";
 
-/// Others that are true of the elements, and some that are not.
-const std::vector<Alteration>& of_elements() {
+/// Others that are true of the cells, and some that are not.
+const std::vector<Alteration>& of_cells() {
   static const std::string_view flat = "tetrahedron 0: a polynomial is not positive at a point",
                                 proof =
                                     "0\nseparate 0 1/4 face -\nseparate 1/4 3/8 face -\n"
@@ -200,7 +200,7 @@ const std::vector<Alteration>& of_elements() {
        "tetrahedron 0: the l"},
       {"tetrahedron\nplane", "tetrahedron\n1\nplane", "expected 'plane_triangle', found '1'"},
       {"tetrahedron\nplane", "plane", "expected 'tetrahedron', found 'plane_triangle'"},
-      // A claim up to a time that an element does not reach, and one that it does.
+      // A claim up to a time that a cell does not reach, and one that it does.
       {"0 0 1 0 0 1/2", "0 0 1 0 0 -1", flat},
       {claim, "earliest 0 0\nelement tetrahedron 0\ncontact time 0\nat plane\nend\nsweep",
        "the volume is positive"},
@@ -215,7 +215,7 @@ const std::vector<Alteration>& of_elements() {
 /// The first time at which the volume of the tetrahedron is 0, before the triangle is nearly flat.
 std::string of_first_inversion() {
   return stream(
-      altered(altered(altered(elements, "0 0 1 0 0 1/2", "0 0 1 0 0 -4"), "no_contact 1\n",
+      altered(altered(altered(cells, "0 0 1 0 0 1/2", "0 0 1 0 0 -4"), "no_contact 1\n",
                       "earliest 1/8 1/5\nelement tetrahedron 0\ncontact time 1/5\nat plane\n"),
               "0\nseparate 0 1/4 face -\nseparate 1/4 3/8 face -\nseparate 3/8 1 face -\n", ""));
 }
@@ -260,7 +260,7 @@ std::vector<std::pair<std::string, std::vector<Alteration>>> tables() {
   return {
       {stream(step()), of_triangles()},
       {stream(spheres), of_spheres()},
-      {stream(elements), of_elements()},
+      {stream(cells), of_cells()},
       {of_first_inversion(),
        {{"contact time 1/5", "contact time 1/6", "the volume is positive"},
         {"earliest 1/8 1/5", "earliest 1/5 1/4", "tetrahedron 0: a polynomial is not positive"}}},
@@ -283,7 +283,7 @@ TEST(Step, SaysWhatItProves) {
   const Report of_inversion = check_text(of_first_inversion());
   ASSERT_EQ(of_inversion.steps.size(), 1U);
   EXPECT_EQ(of_inversion.steps[0],
-            "step elements\n0 of 7 vertices, 0 edges, 0 faces\n1 tetrahedra, 1 plane "
+            "step cells\n0 of 7 vertices, 0 edges, 0 faces\n1 tetrahedra, 1 plane "
             "triangles\nrules 7 vertices left out\nseparation 0\nclaim earliest 1/8 1/5\nelement "
             "tetrahedron 0\n");
   EXPECT_EQ(check_text(corpus()).steps.size(), 3U);

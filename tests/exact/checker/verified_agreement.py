@@ -491,10 +491,10 @@ def main():
             if result.rejected > 0:
                 result.difference = result.difference or f"{result.rejected} refused"
         report("curves written otherwise", results)
-        elements = [text.splitlines() for text, outcome in listed(cases / "certificates.txt")
+        cells = [text.splitlines() for text, outcome in listed(cases / "certificates.txt")
                     if outcome and text.startswith("query tetrahedron")]
         for name, some, count in (("mutants", originals, arguments.mutants), ("mutants of curves", curved, arguments.mutants),
-                                  ("mutants of tetrahedra", elements, arguments.mutants // 5),
+                                  ("mutants of tetrahedra", cells, arguments.mutants // 5),
                                   ("mutants of curves written otherwise", rewritten, arguments.mutants // 50)):
             mutants = (mutant(draw, without_label(draw.choice(some))) for _ in range(count))
             report(name, list(stream_results(programs, path, mutants)))

@@ -68,18 +68,18 @@ SceneProof prove(const Scene& scene, const fast::StepOptions& step_options,
   return prove_step(scene.step(step_options), options);
 }
 
-/// The earliest contact of all pairs and elements, by the oracle.
+/// The earliest contact of all pairs and cells, by the oracle.
 std::optional<AlgebraicNumber> earliest(const Scene& scene, const fast::StepOptions& options) {
   std::optional<AlgebraicNumber> first;
   const tests::AllPairs all(scene);
   for (const tests::NumberedPair& pair : all.pairs()) {
     const Decision verdict = decide(
-        fast::Step::kind_of(pair.first), all.query(pair),
+        decided_as(pair.first), all.query(pair),
         {options.solve.separation.distance + all.thickness(pair), options.solve.separation.norm});
     if (verdict.toi && (!first || *verdict.toi < *first)) first = verdict.toi;
   }
-  tests::for_each_volume(scene, [&](Kind, std::size_t, const Query& element) {
-    const auto time = decide(Kind::tetrahedron, element).toi;
+  tests::for_each_volume(scene, [&](CellKind, std::size_t, const Query& cell) {
+    const auto time = first_inversion(CellKind::tetrahedron, cell);
     if (time && (!first || *time < *first)) first = time;
   });
   if (first && *first > Rational(options.solve.t_max)) return std::nullopt;

@@ -29,7 +29,7 @@
 #include "fast/kernels.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified_against_oracle.hpp"
-#include "tests/support/inverting_elements.hpp"
+#include "tests/support/inverting_cells.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
@@ -49,7 +49,7 @@ namespace {
 using exact::Rational;
 using tests::Random;
 
-Query random_query(Random& random, Kind kind) {
+Query random_query(Random& random, ContactKind kind) {
   Query query = random.between(0, 2) == 0 ? tests::full_significand_query(random)
                                           : tests::near_contact_query(random, kind);
   switch (random.between(0, 5)) {
@@ -73,7 +73,7 @@ Query random_query(Random& random, Kind kind) {
 
 /// The items of a list, sorted.
 template <class Item, class Projection = std::identity>
-std::vector<Item> sorted(const KernelOutput::List<Item>& list, const Projection& projection = {}) {
+std::vector<Item> sorted(const KernelList<Item>& list, const Projection& projection = {}) {
   std::vector<Item> result(list.items.begin(),
                            list.items.begin() + static_cast<std::ptrdiff_t>(list.count));
   std::ranges::sort(result, {}, projection);
@@ -97,6 +97,17 @@ void expect_same(const KernelOutput& a, const KernelOutput& b) {
   expect_same_collisions(a, b);
 }
 
+void expect_same(const CellOutput& a, const CellOutput& b) {
+  const auto numbers_of = [](const KernelInversion& x) {
+    return std::tuple(x.index, x.toi_lower, x.toi_upper);
+  };
+  EXPECT_EQ(sorted(a.inverted), sorted(b.inverted));
+  EXPECT_EQ(sorted(a.undecided), sorted(b.undecided));
+  EXPECT_TRUE(std::ranges::equal(sorted(a.inversions, &KernelInversion::index),
+                                 sorted(b.inversions, &KernelInversion::index), {}, numbers_of,
+                                 numbers_of));
+}
+
 std::vector<const CertifiedKernel*> all_kernels() {
   std::vector<const CertifiedKernel*> kernels(certified_kernels().begin(),
                                               certified_kernels().end());
@@ -118,16 +129,16 @@ void expect_same_bits(const KernelInput& input, KernelOutput& plain) {
 }
 
 TEST(CertifiedKernels, InvertWithTheSameBits) {
-  const auto plain = std::make_unique<KernelOutput>(), other = std::make_unique<KernelOutput>();
+  const auto plain = std::make_unique<CellOutput>(), other = std::make_unique<CellOutput>();
   Random random(3);
   for (int round = 0; round < 60; ++round) {
-    std::vector<Query> elements(static_cast<std::size_t>(random.between(1, kernel_block)));
-    for (Query& element : elements) {
-      element = tests::element_of_sort(random, random.between(0, tests::sorts_of_elements - 1));
+    std::vector<Query> cells(static_cast<std::size_t>(random.between(1, kernel_block)));
+    for (Query& cell : cells) {
+      cell = tests::cell_of_sort(random, random.between(0, tests::sorts_of_cells - 1));
     }
-    const KernelInput input{.count = elements.size(),
-                            .queries = elements.data(),
-                            .t_limit = round % 3 == 0 ? random.uniform() : 1.0};
+    const CellInput input{.count = cells.size(),
+                          .queries = cells.data(),
+                          .t_limit = round % 3 == 0 ? random.uniform() : 1.0};
     certified_kernels().front()->invert(input, *plain);
     for (const CertifiedKernel* const kernel : all_kernels()) {
       SCOPED_TRACE(to_string(kernel->instructions));
@@ -146,7 +157,7 @@ Separation separation_of(int round) {
 
 TEST(CertifiedKernels, GiveTheSameBits) {
   const auto plain = std::make_unique<KernelOutput>();
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     Random random(1);
     for (int round = 0; round < 60; ++round) {
       std::vector<Query> queries(static_cast<std::size_t>(random.between(1, kernel_block)));
@@ -166,13 +177,14 @@ class Pairs {
  public:
   /// \param far The place of one more vertex, by the size of the coordinates: it makes the unit of
   /// fixed point large. \pre The coordinates are finite.
-  Pairs(Kind kind, std::span<const Query> queries, double distance, double far = 0.0)
+  Pairs(ContactKind kind, std::span<const Query> queries, double distance, double far = 0.0)
       : kind_(kind), vertices_(places(queries, 0, far), places(queries, 1, far)) {
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(queries.size()); ++i) {
       edges_.push_back({4 * i, 4 * i + 1});
       edges_.push_back({4 * i + 2, 4 * i + 3});
       faces_.push_back({4 * i + 1, 4 * i + 2, 4 * i + 3});
-      pairs_.push_back(kind == Kind::edge_edge ? IndexPair{2 * i, 2 * i + 1} : IndexPair{4 * i, i});
+      pairs_.push_back(kind == ContactKind::edge_edge ? IndexPair{2 * i, 2 * i + 1}
+                                                      : IndexPair{4 * i, i});
     }
     rounded_ = fixed_point_vertices(vertices_, 1.0, distance);
   }
@@ -205,7 +217,7 @@ class Pairs {
     return result;
   }
 
-  Kind kind_;
+  ContactKind kind_;
   Motion vertices_;
   std::vector<Edge> edges_;
   std::vector<Face> faces_;
@@ -216,7 +228,7 @@ class Pairs {
 TEST(CertifiedKernels, GiveTheSameBitsOfPairsInSinglePrecision) {
   const auto plain = std::make_unique<KernelOutput>(), other = std::make_unique<KernelOutput>();
   std::size_t decided = 0;
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     Random random(2);
     for (int round = 0; round < 60; ++round) {
       std::vector<Query> queries(static_cast<std::size_t>(random.between(1, kernel_block)));
@@ -246,14 +258,16 @@ TEST(CertifiedKernels, ReadNothingBehindTheLastQuery) {
   for (std::size_t count : {0U, 1U, 3U, 4U, 5U, 8U, 9U}) {
     Random random(count);
     std::vector<Query> queries(count);
-    for (Query& query : queries) query = tests::near_contact_query(random, Kind::edge_edge);
+    for (Query& query : queries) query = tests::near_contact_query(random, ContactKind::edge_edge);
     const auto output = std::make_unique<KernelOutput>();
+    const auto of_cells = std::make_unique<CellOutput>();
     for (const CertifiedKernel* const kernel : all_kernels()) {
-      kernel->decide({.kind = Kind::edge_edge, .count = count, .queries = queries.data()}, *output);
+      kernel->decide({.kind = ContactKind::edge_edge, .count = count, .queries = queries.data()},
+                     *output);
       EXPECT_LE(output->impacts.count, count);
-      for (const Kind kind : {Kind::tetrahedron, Kind::plane_triangle}) {
-        kernel->invert({.kind = kind, .count = count, .queries = queries.data()}, *output);
-        EXPECT_LE(output->impacts.count, count);
+      for (const CellKind kind : cell_kinds) {
+        kernel->invert({.kind = kind, .count = count, .queries = queries.data()}, *of_cells);
+        EXPECT_LE(of_cells->inversions.count, count);
       }
     }
   }
@@ -271,7 +285,8 @@ bool is_wrong(const verify::generate::KnownQuery& known, const CertifiedResult& 
 
 /// The results of a query: by itself, and as a pair of a mesh, with stages in single precision,
 /// whose unit is small or large.
-std::vector<CertifiedResult> results(Kind kind, const Query& query, const CertifiedKernel& kernel,
+std::vector<CertifiedResult> results(ContactKind kind, const Query& query,
+                                     const CertifiedKernel& kernel,
                                      const CertifiedOptions& options = {}) {
   CertifiedOptions with_kernel = options;
   with_kernel.kernels.certified = &kernel;
@@ -292,7 +307,7 @@ std::vector<std::string> families_that_find(const CertifiedKernel& kernel) {
   std::vector<std::string> found;
   for (const verify::generate::Family& family : verify::generate::families()) {
     bool wrong = false;
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
       if (!verify::generate::supports(family, kind)) continue;
       for (std::uint64_t i = 0; i < count && !wrong; ++i) {
         const verify::generate::KnownQuery known = verify::generate::make_query(family, kind, 5, i);
@@ -332,10 +347,10 @@ TEST(CertifiedKernels, FamiliesFindPlantedFaults) {
 
 /// A vertex that crosses a face, or an edge that crosses another, in a plane across an axis, and no
 /// other axis separates them; the places on that axis have all bits.
-Query crossing_on_an_axis(Random& random, Kind kind) {
-  Query query = kind == Kind::vertex_face ? tests::over_triangle(1, 1, 1, -1).query
-                                          : tests::over_edge(1, 1, 1, -1).query;
-  const std::size_t firsts = kind == Kind::vertex_face ? 1 : 2;
+Query crossing_on_an_axis(Random& random, ContactKind kind) {
+  Query query = kind == ContactKind::vertex_face ? tests::over_triangle(1, 1, 1, -1).query
+                                                 : tests::over_edge(1, 1, 1, -1).query;
+  const std::size_t firsts = kind == ContactKind::vertex_face ? 1 : 2;
   for (std::size_t end = 0; end < 2; ++end) {
     const double first = random.uniform(end == 0 ? 0.5 : -1.0, end == 0 ? 1.0 : -0.5);
     const double second = random.uniform(-0.25, 0.25);
@@ -349,7 +364,7 @@ Query crossing_on_an_axis(Random& random, Kind kind) {
 /// The number of wrong answers with limits at and beside the time of impact.
 int limits_that_find(const CertifiedKernel& kernel) {
   int found = 0;
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     Random random(43);
     for (int i = 0; i < 200; ++i) {
       const Query query = crossing_on_an_axis(random, kind);
@@ -420,7 +435,7 @@ TEST(Certified, OneQueryHasTheBitsOfABatch) {
   std::vector<CertifiedResult> batch(size);
   const int rounds = tests::soak_trials(60, 100);
   std::array<std::size_t, 2> exact{}, separated{};
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     Random random(44);
     for (int round = 0; round < rounds; ++round) {
       // Few queries of those that the exact stage decides, which takes most of the time.
@@ -452,7 +467,7 @@ TEST(Certified, OneQueryHasTheBitsOfABatch) {
 /// closest at mid-step, at an interior point (optionally a near miss). Its normal is about as long
 /// as its sides allow. The bounds of the change by a shift of d, from the sides' coordinates, are
 /// therefore sharp, and the determinant's middle Bernstein coefficients are far below its values.
-Query tilting(Kind kind, double separation, verify::generate::Random& random) {
+Query tilting(ContactKind kind, double separation, verify::generate::Random& random) {
   // Sides of about 1 first, and a distance beside them.
   const int ratio = static_cast<int>(random.between(2, 40));
   const double distance = std::ldexp(1.0, -ratio);
@@ -473,7 +488,7 @@ Query tilting(Kind kind, double separation, verify::generate::Random& random) {
     const double angle = end == 0 ? turn : -turn;
     const Eigen::Vector3d side_p = p + angle * a, side_q = q + angle * b;
     point_of(query, end, 0) = r;
-    if (kind == Kind::vertex_face) {
+    if (kind == ContactKind::vertex_face) {
       point_of(query, end, 2) = side_p;
     } else {
       point_of(query, end, 1) = r - side_p;
@@ -488,7 +503,7 @@ Query tilting(Kind kind, double separation, verify::generate::Random& random) {
 }
 
 /// A query whose motions are at most about the distance of its points, or tiny.
-Query query_near(Random& random, Kind kind, double distance, int i) {
+Query query_near(Random& random, ContactKind kind, double distance, int i) {
   if (i % 5 == 0) {
     verify::generate::Random drawn(random.bits());
     return tilting(kind, distance, drawn);
@@ -502,7 +517,7 @@ int distances_that_find(const CertifiedKernel& kernel) {
   int found = 0;
   for (const double distance : {0.25, 1e-2, 1e-8, 1e-15, 1e-16}) {
     bool is_found = false;
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
       Random random(41);
       for (int i = 0; i < 400 && !is_found; ++i) {
         const Norm norm = i % 2 == 0 ? Norm::linf : Norm::l2;

@@ -24,7 +24,7 @@ using tests::Random;
 
 /// Queries of one kind and separation, all undecided by the kernel.
 struct Block {
-  Kind kind;
+  ContactKind kind;
   Separation separation;
   std::vector<Query> queries;
   bool can_be_scaled = true;  ///< without rounding
@@ -70,7 +70,8 @@ Outcome outcome(tests::DecideRescaled& decide, const Block& block) {
 
 /// Queries near a contact that floating point decides at their usual size, with the axes multiplied
 /// by powers of two.
-Block block_of(Random& random, Kind kind, const std::array<int, 3>& exponents, double distance) {
+Block block_of(Random& random, ContactKind kind, const std::array<int, 3>& exponents,
+               double distance) {
   Block block{kind, {.distance = std::ldexp(distance, exponents[0]), .norm = Norm::l2}, {}};
   while (block.queries.size() < 60) {
     Query query = tests::near_contact_query(random, kind);
@@ -89,7 +90,7 @@ Block block_of(Random& random, Kind kind, const std::array<int, 3>& exponents, d
 std::vector<Block> blocks() {
   Random random(31);
   std::vector<Block> result;
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     for (const std::array<int, 3>& exponents : {std::array{110, 110, 110},
                                                 {400, 400, 400},
                                                 {1000, 1000, 1000},
@@ -105,9 +106,9 @@ std::vector<Block> blocks() {
       }
     }
   }
-  Block& rounded = result.emplace_back(Block{Kind::vertex_face, {}, {}, false});
+  Block& rounded = result.emplace_back(Block{ContactKind::vertex_face, {}, {}, false});
   for (int i = 0; i < 200; ++i) {
-    Query query = tests::near_contact_query(random, Kind::vertex_face);
+    Query query = tests::near_contact_query(random, ContactKind::vertex_face);
     for (double& x : query.coordinates) x = std::ldexp(x, -1020);
     // A vertex far away, and a triangle at rest in it but for one corner that comes near.
     for (const std::size_t end : {0U, 1U}) query.at(end, 3, 0) = 0x1p1000;
@@ -141,7 +142,7 @@ TEST(Rescaling, DecidesQueriesOfAllSizesInFloatingPoint) {
 TEST(Rescaling, LeavesQueriesOfUsualSizeAlone) {
   Random random(33);
   for (const double distance : {0.0, 0.1}) {
-    const Block block = block_of(random, Kind::edge_edge, {0, 0, 0}, distance);
+    const Block block = block_of(random, ContactKind::edge_edge, {0, 0, 0}, distance);
     EXPECT_EQ(outcome(decide_rescaled, block).decided, 0U);
   }
 }

@@ -30,7 +30,7 @@ using tests::vertex_face;
 using tests::within;
 using tests::yes_at;
 
-constexpr std::array kinds{Kind::vertex_face, Kind::edge_edge};
+constexpr std::array kinds{ContactKind::vertex_face, ContactKind::edge_edge};
 constexpr Verdict yes = Verdict::yes, no = Verdict::no;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 using Rows = std::vector<tests::SaidRow>;
@@ -39,8 +39,9 @@ constexpr bool wrong = true, right = false;
 const fast::Method& method(std::string_view name) { return verify::solvers::find_method(name); }
 
 /// The vertex or the edge moves from one height to another above the inside of the other primitive.
-PosedQuery over(Kind kind, double from, double to) {
-  return kind == Kind::vertex_face ? over_triangle(1, 1, from, to) : over_edge(1, 2, from, to);
+PosedQuery over(ContactKind kind, double from, double to) {
+  return kind == ContactKind::vertex_face ? over_triangle(1, 1, from, to)
+                                          : over_edge(1, 2, from, to);
 }
 
 /// A vertex above the triangle that moves by 1 with it, or along it.
@@ -78,7 +79,7 @@ Rows rows_of_accd() {
             {"accd_limited", comes_down_along(8.0), {yes, 0, 0.5}},
             {"accd_limited", comes_down_along(100.0), {no, -infinity, infinity, 32}, wrong},
             {"accd", comes_down_along(100.0), {yes}}};
-  for (const Kind kind : kinds) {
+  for (const ContactKind kind : kinds) {
     // The distance 0.25 is reached at t=3/4.
     rows.insert(rows.end(), {{"accd", over(kind, 1, 0.05), {yes}, wrong},
                              {"accd", over(kind, 1, 0.2), {no}},
@@ -96,7 +97,7 @@ Rows rows_of_cubic() {
        vertex_face({-1, 1, 0, 0, 0, 0, 4, 0, 0, 0, 4, 0}, {5, 1, 0, 0, 0, 0, 4, 0, 0, 0, 4, 0}),
        {no},
        wrong}};
-  for (const Kind kind : kinds) {
+  for (const ContactKind kind : kinds) {
     rows.insert(rows.end(), {{"cubic", over(kind, 1, 5e-5), {yes}, wrong, {.tolerance = 1e-4}},
                              {"cubic", over(kind, 1, 2e-4), {no}, right, {.tolerance = 1e-4}},
                              {"cubic", over(kind, 0, 1), yes_at(0.0)},
@@ -140,7 +141,7 @@ TEST(Accd, StopsStrictlyBeforeContactAndCubicEstimatesIt) {
   EXPECT_GT(tests::answer_to(method("accd"), beside_triangle(0x1p-20, 0), {.max_checks = 0}).checks,
             500'000U);
   tests::Random random(9);
-  for (const Kind kind : kinds) {
+  for (const ContactKind kind : kinds) {
     for (int i = 0; i < 1000; ++i) {
       const PosedQuery posed = tests::centre_hit(random, kind, Movement::independent);
       const fast::Answer accd = tests::answer_to(method("accd"), posed);
@@ -156,7 +157,7 @@ TEST(Accd, StopsStrictlyBeforeContactAndCubicEstimatesIt) {
 
 // ---- Methods for curves -------------------------------------------------------------------------
 
-constexpr QueryShape parabolas{.kind = Kind::vertex_face, .degree = 2};
+constexpr QueryShape parabolas{.kind = ContactKind::vertex_face, .degree = 2};
 
 fast::Answer answer_to(const fast::Method& method, const std::vector<double>& numbers,
                        const fast::MethodOptions& options = {}) {
@@ -243,9 +244,9 @@ TEST(CurvedMethods, HeedTMaxAndRefuseWhatIsNotFinite) {
     bad[20] = std::nan("");
     EXPECT_EQ(answer_to(*method, bad).verdict, Verdict::error) << method->name();
     const fast::Terms& terms = method->info().terms;
-    EXPECT_FALSE(terms.answers({.kind = Kind::edge_edge})) << "straight lines";
-    EXPECT_TRUE(terms.answers({.kind = Kind::edge_edge, .degree = 8}));
-    EXPECT_FALSE(terms.answers({.kind = Kind::edge_edge, .degree = 2, .is_rational = true}));
+    EXPECT_FALSE(terms.answers({.kind = ContactKind::edge_edge})) << "straight lines";
+    EXPECT_TRUE(terms.answers({.kind = ContactKind::edge_edge, .degree = 8}));
+    EXPECT_FALSE(terms.answers({.kind = ContactKind::edge_edge, .degree = 2, .is_rational = true}));
   }
 }
 

@@ -29,7 +29,7 @@ using test::read_survivors;
 using test::Survivors;
 using test::TemporaryFolder;
 
-DatasetOptions vertex_face() { return {.kind = Kind::vertex_face}; }
+DatasetOptions vertex_face() { return {.kind = ContactKind::vertex_face}; }
 
 /// The first error of a file of this text, without its name, read without keep_going.
 std::string strict_error(const std::string& text, const DatasetOptions& options = vertex_face()) {
@@ -175,7 +175,7 @@ TEST(CsvDataset, RoundsOnlyWhereAskedAndCounts) {
   lines[16] = "1,3,2,1,x,3,0";
   const TemporaryFolder folder;
   const auto path = folder.file("a.csv", joined(lines));
-  DatasetOptions options{.kind = Kind::vertex_face, .round = true, .keep_going = true};
+  DatasetOptions options{.kind = ContactKind::vertex_face, .round = true, .keep_going = true};
   const auto source = open_dataset(path, options);
   const auto records = read_all(*source);
   ASSERT_EQ(records.size(), 2U);
@@ -191,20 +191,20 @@ TEST(CsvDataset, RoundsOnlyWhereAskedAndCounts) {
 
 /// A shape and the line and the extents that files have of it.
 struct ShapeCase {
-  QueryShape shape;
+  AnyShape shape;
   std::string line;
   std::vector<std::uint64_t> extents;
 };
 
-const ShapeCase cubic{{Kind::edge_edge, 3, false}, "degree,3", {4, 4, 3}};
-const ShapeCase rational{{Kind::edge_edge, 2, true}, "rational,2", {3, 4, 4}};
-const ShapeCase weighted{{Kind::edge_edge, 1, true}, "rational,1", {2, 4, 4}};
-const ShapeCase straight{{Kind::edge_edge, 1, false}, "degree,1", {2, 4, 3}};
-const ShapeCase highest{{Kind::edge_edge, 8, true}, "rational,8", {9, 4, 4}};
+const ShapeCase cubic{{ContactKind::edge_edge, 3, false}, "degree,3", {4, 4, 3}};
+const ShapeCase rational{{ContactKind::edge_edge, 2, true}, "rational,2", {3, 4, 4}};
+const ShapeCase weighted{{ContactKind::edge_edge, 1, true}, "rational,1", {2, 4, 4}};
+const ShapeCase straight{{ContactKind::edge_edge, 1, false}, "degree,1", {2, 4, 3}};
+const ShapeCase highest{{ContactKind::edge_edge, 8, true}, "rational,8", {9, 4, 4}};
 const std::array all{cubic, rational, weighted, straight, highest};
 
 /// The rows of numbered queries, as quarters or as decimals, odd queries labelled as collisions.
-std::string numbered_text(const QueryShape& shape, std::size_t count, bool fractions, bool labels) {
+std::string numbered_text(const AnyShape& shape, std::size_t count, bool fractions, bool labels) {
   std::string text;
   for (std::size_t index = 0; index < count; ++index) {
     const AnyQuery query = numbered(shape, index);
@@ -242,7 +242,7 @@ std::string error_in(const std::string& name, const std::string& text) {
   const TemporaryFolder folder;
   const auto path = folder.file(name, text);
   return error_of(folder.path(), [&] {
-    const auto source = open_dataset(path, {.kind = Kind::edge_edge});
+    const auto source = open_dataset(path, {.kind = ContactKind::edge_edge});
     (void)read_all(*source);
   });
 }

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "tests/support/folder_test.hpp"
-#include "touchstone/query.hpp"
+#include "touchstone/any_kind.hpp"
 #include "verify/data/dataset.hpp"
 
 namespace touchstone::verify::data::test {
@@ -66,7 +66,7 @@ struct Survivors {
 }
 
 /// A query whose numbers all differ from place to place, are quarters, and no weight is 0.
-[[nodiscard]] inline base::AnyQuery numbered(const QueryShape& shape, std::size_t index) {
+[[nodiscard]] inline base::AnyQuery numbered(const AnyShape& shape, std::size_t index) {
   std::vector<double> numbers(shape.numbers_of_query());
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     numbers[i] = static_cast<double>(100 * index + i) / 4.0;
@@ -110,7 +110,7 @@ struct Survivors {
 
 /// Expects exactly the numbered queries of these indices, each with its index, of any kind.
 inline void expect_numbered(const std::vector<RecordedQuery>& records,
-                            const std::vector<std::uint64_t>& indices, QueryShape shape = {}) {
+                            const std::vector<std::uint64_t>& indices, AnyShape shape = {}) {
   ASSERT_EQ(records.size(), indices.size());
   for (std::size_t i = 0; i < records.size(); ++i) {
     EXPECT_EQ(records[i].index, indices[i]);

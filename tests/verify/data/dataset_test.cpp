@@ -129,12 +129,12 @@ TEST(KindFromPath, IsThatOfItsDeepestWordIfThereIsOne) {
        {"a/edge-edge/data_0_0.csv", "vertex-face/x/edge-edge/d.csv", "my-edge-edge-queries/1vf.csv",
         "2edge-edge_queries/d.csv", "x_ee.npy", "x-ee.npy", "x ee.npy", "x.ee.npy", "ee.npy",
         "326ee.npy", "x_326ee.npy", "3d-ee.npy"}) {
-    EXPECT_EQ(kind_from_path(path), Kind::edge_edge) << path;
+    EXPECT_EQ(kind_from_path(path), ContactKind::edge_edge) << path;
   }
   for (const std::string path :
        {"a/vertex-face/data_0_0.csv", "edge-edge/my-vertex-face-set.npy", "queries/326vf.csv",
         "x_vf.csv", "vf.csv", "92vf.csv", "cloth-92vf.csv", "a_vf.csv"}) {
-    EXPECT_EQ(kind_from_path(path), Kind::vertex_face) << path;
+    EXPECT_EQ(kind_from_path(path), ContactKind::vertex_face) << path;
   }
   for (const std::string path :
        {"tree.npy", "x_tree.csv", "coffee.csv", "4fa9ee.npy", "w1ee.csv", "pdvf.csv",

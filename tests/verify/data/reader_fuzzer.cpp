@@ -37,7 +37,7 @@
 namespace {
 
 namespace fs = std::filesystem;
-using touchstone::Kind;
+using touchstone::ContactKind;
 using touchstone::Query;
 using touchstone::verify::io::DatasetError;
 
@@ -77,7 +77,7 @@ void check_query(const touchstone::verify::base::AnyQuery& query) {
 template <class Dataset>
 void read_dataset(const fs::path& path, bool keep_going) {
   touchstone::verify::data::DatasetOptions options;
-  options.kind = Kind::edge_edge;
+  options.kind = ContactKind::edge_edge;
   options.round = keep_going;
   options.keep_going = keep_going;
   std::optional<Dataset> source;

@@ -15,16 +15,16 @@ namespace touchstone::verify::fuzz::contact_test {
 namespace {
 
 using generate::Random;
-using Maker = Query (*)(Kind, Random&);
+using Maker = Query (*)(ContactKind, Random&);
 
-constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
+constexpr std::array<ContactKind, 2> both_kinds{ContactKind::vertex_face, ContactKind::edge_edge};
 
 /// Calls use(kind, query) for drawn queries, half of each kind.
 template <class Use>
 void for_each_query(Maker make, int count, const Use& use) {
   Random random(1);
   for (int i = 0; i < count; ++i) {
-    const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
+    const ContactKind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
     use(kind, make(kind, random));
   }
 }
@@ -34,7 +34,7 @@ void for_each_query(Maker make, int count, const Use& use) {
 TEST(Contact, IsContactAlways) {
   const auto times_of = [](Maker make, int count, int& full) {
     std::map<double, int> tois;
-    for_each_query(make, count, [&](Kind kind, const Query& query) {
+    for_each_query(make, count, [&](ContactKind kind, const Query& query) {
       const exact::Decision verdict = exact::decide(kind, query);
       ASSERT_TRUE(verdict.collides());
       ++tois[verdict.toi->enclosure().lower];

@@ -27,6 +27,7 @@
 #include "tests/support/trials.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/oracle.hpp"
+#include "verify/base/any_decision.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"
 #include "verify/judge/ground_truth.hpp"
@@ -42,7 +43,11 @@ using tests::FunctionMethod;
 using namespace std::chrono_literals;
 
 /// The right answer, by the fast solver.
-Answer honest(Kind kind, const Query& query) { return answer_of(fast::solve(kind, query)); }
+Answer honest(AnyKind kind, const Query& query) {
+  fast::CertifiedResult result;
+  base::solve({kind, {&query, 1}}, {&result, 1}, {.max_threads = 1});
+  return answer_of(result);
+}
 
 fast::MethodInfo promising(Promise promise) { return {.name = "function", .promise = promise}; }
 
@@ -56,18 +61,19 @@ FuzzResult search(const FunctionMethod::Function& function, const fast::MethodIn
   return fuzz(method, options);
 }
 
-const std::vector<QueryShape> elements{{Kind::tetrahedron}, {Kind::plane_triangle}};
+const std::vector<AnyShape> cells{{CellKind::tetrahedron}, {CellKind::plane_triangle}};
 
-std::vector<QueryShape> shapes(std::size_t degree, bool is_rational = false) {
-  return {{Kind::vertex_face, degree, is_rational}, {Kind::edge_edge, degree, is_rational}};
+std::vector<AnyShape> shapes(std::size_t degree, bool is_rational = false) {
+  return {{ContactKind::vertex_face, degree, is_rational},
+          {ContactKind::edge_edge, degree, is_rational}};
 }
 
 /// The certified solver's answers to queries on curves, changed.
-FunctionMethod on_curves(const std::function<void(const Queries&, Answer&)>& change,
+FunctionMethod on_curves(const std::function<void(const AnyQueries&, Answer&)>& change,
                          Promise promise = Promise::exact) {
-  return {[change](const Queries& one) {
+  return {[change](const AnyQueries& one) {
             fast::CertifiedResult result;
-            fast::solve(one, {&result, 1}, {.max_threads = 1});
+            base::solve(one, {&result, 1}, {.max_threads = 1});
             Answer answer = answer_of(result);
             change(one, answer);
             return answer;
@@ -105,19 +111,19 @@ Change yes_within(double tolerance) {
   };
 }
 
-/// No to collisions of elements of which this is true.
-Planted missed_element(const char* name, bool (*is_missed)(const Query&, const Answer&)) {
+/// No to inversions of cells of which this is true.
+Planted missed_cell(const char* name, bool (*is_missed)(const Query&, const Answer&)) {
   return {name,
           judge::Fault::false_negative,
           {.name = "function",
            .promise = Promise::conservative,
-           .terms = {.kinds = {false, false, true}}},
+           .terms = {.contacts = {false, false}, .cells = {true, false}}},
           [is_missed](const Query& query, Answer& answer) {
             if (answer.verdict == Verdict::yes && is_missed(query, answer)) {
               answer = {.verdict = Verdict::no};
             }
           },
-          {.shapes = {{Kind::tetrahedron}}, .oracle_share = 0.0}};
+          {.shapes = {{CellKind::tetrahedron}}, .oracle_share = 0.0}};
 }
 
 TEST(Fuzz, FindsEveryPlantedFault) {
@@ -184,20 +190,20 @@ TEST(Fuzz, FindsEveryPlantedFault) {
        conservatively,
        right,
        {.separation = l2, .only = {false_negative}}},
-      missed_element("where a volume only touches 0",
-                     [](const Query& query, const Answer&) {
-                       Query end = query;
-                       std::copy_n(query.coordinates.begin() + 12, 12, end.coordinates.begin());
-                       return !exact::decide(Kind::tetrahedron, end).collides();
-                     }),
-      missed_element("at the end",
-                     [](const Query&, const Answer& answer) { return answer.toi_upper == 1.0; }),
-      missed_element("of an orientation", [](const Query& query, const Answer&) {
+      missed_cell("where a volume only touches 0",
+                  [](const Query& query, const Answer&) {
+                    Query end = query;
+                    std::copy_n(query.coordinates.begin() + 12, 12, end.coordinates.begin());
+                    return !exact::first_inversion(CellKind::tetrahedron, end);
+                  }),
+      missed_cell("at the end",
+                  [](const Query&, const Answer& answer) { return answer.toi_upper == 1.0; }),
+      missed_cell("of an orientation", [](const Query& query, const Answer&) {
         return query.at(0, 1, 0) < query.at(0, 0, 0) && query.at(0, 2, 0) > query.at(0, 0, 0);
       })};
   for (const Planted& planted : all) {
     SCOPED_TRACE(planted.name);
-    const auto altered = [&](Kind kind, const Query& query) {
+    const auto altered = [&](AnyKind kind, const Query& query) {
       Answer answer = honest(kind, query);
       planted.change(query, answer);
       return answer;
@@ -211,7 +217,7 @@ TEST(Fuzz, FindsEveryPlantedFault) {
     EXPECT_FALSE(finding.original.detail.empty());
     EXPECT_FALSE(finding.generator.empty());
     EXPECT_EQ(finding.original.collides,
-              exact::decide(finding.original.query.queries(), 0, finding.separation).collides());
+              base::decide(finding.original.query.queries(), 0, finding.separation).collides());
     // Simplification was not requested.
     EXPECT_EQ(finding.simplest.query, finding.original.query);
     EXPECT_EQ(finding.shrinking, Shrinking::not_tried);
@@ -224,7 +230,7 @@ TEST(Fuzz, FindsEveryPlantedFault) {
   }
 }
 
-/// Of lines, curves and elements, with a separation and without.
+/// Of lines, curves and cells, with a separation and without.
 TEST(Fuzz, FindsNothingWhereNothingIsWrong) {
   struct Sound {
     const fast::Method& method;
@@ -233,7 +239,7 @@ TEST(Fuzz, FindsNothingWhereNothingIsWrong) {
   };
   const auto yes = [](double tolerance) {
     return FunctionMethod(
-        [tolerance](Kind, const Query& query) {
+        [tolerance](AnyKind, const Query& query) {
           Answer answer;
           yes_within(tolerance)(query, answer);
           return answer;
@@ -242,7 +248,7 @@ TEST(Fuzz, FindsNothingWhereNothingIsWrong) {
   };
   const FunctionMethod always_yes = yes(Answer::none), always_near = yes(HUGE_VAL);
   const FunctionMethod timeless(
-      [](Kind kind, const Query& query) -> Answer {
+      [](AnyKind kind, const Query& query) -> Answer {
         return {.verdict = honest(kind, query).verdict};
       },
       promising(Promise::exact));
@@ -253,7 +259,7 @@ TEST(Fuzz, FindsNothingWhereNothingIsWrong) {
       {certified, tests::trials(std::uint64_t{6000})},
       // The oracle takes a hundred times as long with a distance.
       {certified, tests::trials(std::uint64_t{160}), {.separation = {1e-3, Norm::l2}}},
-      {certified, tests::trials(std::uint64_t{6000}), {.shapes = elements}},
+      {certified, tests::trials(std::uint64_t{6000}), {.shapes = cells}},
       {tight, some / 2, {.method = {.max_checks = 200}, .query_limit_seconds = 30.0}},
       {tight,
        some / 6,
@@ -289,7 +295,7 @@ TEST(Fuzz, FindsNothingWhereNothingIsWrong) {
 /// A method that is wrong only if the first point is on the left: the image of a query on the
 /// right.
 TEST(Fuzz, FindsWhatIsWrongInAMirror) {
-  const FunctionMethod one_sided = on_curves([](const Queries& one, Answer& answer) {
+  const FunctionMethod one_sided = on_curves([](const AnyQueries& one, Answer& answer) {
     if (one.numbers[0] < 0.0 && one.numbers[3] >= 0.0) answer.verdict = Verdict::no;
   });
   for (const std::size_t degree : {1U, 2U}) {
@@ -309,7 +315,7 @@ TEST(Fuzz, FindsWhatIsWrongInAMirror) {
   }
 }
 
-Answer sometimes_wrong(Kind kind, const Query& query) {
+Answer sometimes_wrong(AnyKind kind, const Query& query) {
   Answer answer = honest(kind, query);
   if (query.at(0, 0, 0) < query.at(1, 2, 1)) answer.verdict = Verdict::no;
   return answer;
@@ -317,7 +323,7 @@ Answer sometimes_wrong(Kind kind, const Query& query) {
 
 /// Contacts missed at t=0 and crashes, of both kinds: each group has one fault, kind and shape.
 TEST(Fuzz, PutsFindingsInGroupsByFaultKindAndShape) {
-  const auto ill = [](Kind kind, const Query& query) {
+  const auto ill = [](AnyKind kind, const Query& query) {
     const Answer answer = honest(kind, query);
     if (answer.verdict == Verdict::yes && answer.toi_upper == 0.0) {
       return Answer{.verdict = Verdict::no};
@@ -351,7 +357,7 @@ TEST(Fuzz, PutsFindingsInGroupsByFaultKindAndShape) {
 /// The method is wrong at one coordinate that only the corpus contains.
 TEST(Fuzz, MutatesTheCorpus) {
   static constexpr double rare = 0x1.23456789abcdep+5;
-  const auto wrong = [](Kind kind, const Query& query) {
+  const auto wrong = [](AnyKind kind, const Query& query) {
     Answer answer = honest(kind, query);
     const auto& x = query.coordinates;
     if (std::ranges::find(x, rare) != x.end()) answer.verdict = Verdict::no;
@@ -361,7 +367,7 @@ TEST(Fuzz, MutatesTheCorpus) {
   Query query = tests::over_triangle(1, 1, 1, -1).query;
   query.at(0, 0, 2) = rare;
   const FuzzResult result =
-      search(wrong, promising(Promise::none), {.corpus = {{Kind::vertex_face, query}}});
+      search(wrong, promising(Promise::none), {.corpus = {{ContactKind::vertex_face, query}}});
   ASSERT_FALSE(result.findings.empty());
   EXPECT_EQ(result.findings.front().what, judge::Fault::false_negative);
 }
@@ -371,25 +377,27 @@ TEST(Fuzz, FindsEveryPlantedFaultOnCurvesAndMakesItsQuerySimple) {
   using enum judge::Fault;
   struct Row {
     judge::Fault fault;
-    QueryShape simplest;
-    std::function<void(const Queries&, Answer&)> change;
+    AnyShape simplest;
+    std::function<void(const AnyQueries&, Answer&)> change;
   };
   const std::vector<Row> rows{
       {false_negative,
        {},
-       [](const Queries&, Answer& answer) { answer = {.verdict = Verdict::no}; }},
+       [](const AnyQueries&, Answer& answer) { answer = {.verdict = Verdict::no}; }},
       {false_positive,
        {},
-       [](const Queries&, Answer& answer) { answer = {.verdict = Verdict::yes}; }},
+       [](const AnyQueries&, Answer& answer) { answer = {.verdict = Verdict::yes}; }},
       {no_verdict,
        {},
-       [](const Queries&, Answer& answer) { answer = {.verdict = Verdict::error}; }},
+       [](const AnyQueries&, Answer& answer) { answer = {.verdict = Verdict::error}; }},
       {late_toi,
        {.degree = 2},
-       [](const Queries& one, Answer& answer) {
+       [](const AnyQueries& one, Answer& answer) {
          if (one.degree > 1) answer.toi_lower = answer.toi_upper + 1e-12;
        }},
-      {early_toi_upper, {.degree = 1, .is_rational = true}, [](const Queries& one, Answer& answer) {
+      {early_toi_upper,
+       {.degree = 1, .is_rational = true},
+       [](const AnyQueries& one, Answer& answer) {
          if (one.is_rational) answer.toi_upper = answer.toi_lower - 1e-12;
        }}};
   for (const Row& row : rows) {
@@ -423,7 +431,7 @@ TEST(Fuzz, JudgesWhatIsAnsweredWhenTheTimeIsOver) {
     FuzzOptions options{.seconds = 10.0};
     // The time is over from the given reading of the clock on.
     options.clock = [&] { return ++looks > last_look ? 1000.0 + static_cast<double>(looks) : 0.0; };
-    const FunctionMethod method([&answered](Kind kind, const Query& query) {
+    const FunctionMethod method([&answered](AnyKind kind, const Query& query) {
       answered.add();
       return honest(kind, query);
     });
@@ -445,7 +453,7 @@ TEST(Fuzz, JudgesWhatIsAnsweredWhenTheTimeIsOver) {
 TEST(Fuzz, ReportsAHangThatTakesTheRestOfTheTime) {
   tests::SharedCounter hung;
   const FunctionMethod method(
-      [&hung](Kind kind, const Query& query) {
+      [&hung](AnyKind kind, const Query& query) {
         if (query.at(0, 1, 1) == query.at(1, 1, 1)) {
           hung.add();
           std::this_thread::sleep_for(1h);
@@ -486,7 +494,7 @@ TEST(Fuzz, CountsTheTimeOfFindingsAsTheRuns) {
 // ---- One finding: asking again ------------------------------------------------------------------
 
 /// An answer that is late by a tenth of the remaining time.
-Answer late(Kind kind, const Query& query) {
+Answer late(AnyKind kind, const Query& query) {
   Answer answer = honest(kind, query);
   answer.toi_lower += 0.1 * (1.0 - answer.toi_lower);
   answer.toi_upper = Answer::none;
@@ -509,7 +517,7 @@ TEST(Recheck, AsksAgainAboutAnyQuery) {
   Recheck recheck(method, finding, {});
   EXPECT_TRUE(recheck.ask(finding.original.query));
   // The first point is raised first, and so never below the point that the method compares it with.
-  EXPECT_FALSE(recheck.ask({Kind::vertex_face, tests::over_triangle(8, 8, 1, -1).query}));
+  EXPECT_FALSE(recheck.ask({ContactKind::vertex_face, tests::over_triangle(8, 8, 1, -1).query}));
   AnyQuery infinite = finding.original.query;
   infinite.numbers().front() = HUGE_VAL;
   EXPECT_FALSE(recheck.ask(infinite));
@@ -517,7 +525,7 @@ TEST(Recheck, AsksAgainAboutAnyQuery) {
 }
 
 TEST(Recheck, KnowsCrashesHangsAndMissingBounds) {
-  const auto ill = [](Kind kind, const Query& query) {
+  const auto ill = [](AnyKind kind, const Query& query) {
     const double word = query.at(0, 0, 0);
     if (word == 1.0) std::abort();
     if (word == 2.0) std::this_thread::sleep_for(1h);
@@ -528,7 +536,7 @@ TEST(Recheck, KnowsCrashesHangsAndMissingBounds) {
   const FunctionMethod method(ill, Promise::none);
   const FuzzOptions options{.query_limit_seconds = 0.5};
   const auto query_at = [](double x) {
-    return AnyQuery(Kind::vertex_face, tests::over_triangle(x, 0.25, 1, -1).query);
+    return AnyQuery(ContactKind::vertex_face, tests::over_triangle(x, 0.25, 1, -1).query);
   };
   Finding finding;
   finding.method = "function";
@@ -555,7 +563,7 @@ void expect_consistent(const Finding& finding, const FailingCase& failing,
   const Answer answer = function(finding.kind(), failing.query.straight());
   EXPECT_EQ(failing.answer.verdict, answer.verdict);
   EXPECT_EQ(failing.answer.toi_lower, answer.toi_lower);
-  const exact::Decision truth = exact::decide(failing.query.queries(), 0, finding.separation);
+  const exact::Decision truth = base::decide(failing.query.queries(), 0, finding.separation);
   EXPECT_EQ(failing.collides, truth.collides());
   EXPECT_EQ(failing.truth, judge::to_text(judge::truth_of(0, truth)));
   EXPECT_NE(failing.detail.find(fmt::format("{}", answer.toi_lower)), std::string::npos)
@@ -563,7 +571,7 @@ void expect_consistent(const Finding& finding, const FailingCase& failing,
   EXPECT_EQ(tests::check_text(failing.certificate).accepted(), 1U) << failing.certificate;
   const std::optional<tests::ReadClaim> claim = tests::read_claim(failing.certificate);
   ASSERT_TRUE(claim);
-  EXPECT_EQ(AnyQuery(claim->posed.kind, claim->posed.query), failing.query);
+  EXPECT_EQ(AnyQuery(claim->kind, claim->query), failing.query);
   EXPECT_TRUE(tests::is_true(*claim));
 }
 
@@ -609,21 +617,21 @@ TEST(Simplify, SaysIfTheMethodIsNotWrongAlone) {
 TEST(Simplify, DoesNotRepeatACrashOrAHangLongerThanTheTime) {
   tests::SharedCounter asked;
   Query crashing = tests::over_triangle(1, 1, 1, -1).query;
-  const FunctionMethod method([&](Kind kind, const Query& query) {
+  const FunctionMethod method([&](AnyKind kind, const Query& query) {
     if (query == crashing) asked.add();
     return honest(kind, query);
   });
   Finding finding;
   finding.what = judge::Fault::crash;
   finding.method = "function";
-  finding.original.query = {Kind::vertex_face, crashing};
+  finding.original.query = {ContactKind::vertex_face, crashing};
   finding.simplest = finding.original;
   simplify(method, {}, {}, finding);
   EXPECT_EQ(asked.value(), 0U);
   EXPECT_EQ(finding.shrinking, Shrinking::complete);
   EXPECT_EQ(finding.simplest.query, finding.original.query);
 
-  const FunctionMethod aborts([](Kind, const Query&) -> Answer { std::abort(); });
+  const FunctionMethod aborts([](AnyKind, const Query&) -> Answer { std::abort(); });
   finding.what = judge::Fault::hang;
   finding.shrinking = Shrinking::not_tried;
   simplify(aborts, {.query_limit_seconds = 10.0}, base::Deadline(5.0, [] { return 0.0; }), finding);

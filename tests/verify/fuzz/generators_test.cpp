@@ -19,16 +19,16 @@ namespace {
 
 using generate::Random;
 
-constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
-constexpr std::array<QueryShape, 5> some_shapes{{{Kind::vertex_face},
-                                                 {Kind::edge_edge},
-                                                 {Kind::vertex_face, 2, true},
-                                                 {Kind::edge_edge, 3},
-                                                 {Kind::edge_edge, 1, true}}};
+constexpr std::array<ContactKind, 2> both_kinds{ContactKind::vertex_face, ContactKind::edge_edge};
+constexpr std::array<AnyShape, 5> some_shapes{{{ContactKind::vertex_face},
+                                               {ContactKind::edge_edge},
+                                               {ContactKind::vertex_face, 2, true},
+                                               {ContactKind::edge_edge, 3},
+                                               {ContactKind::edge_edge, 1, true}}};
 const std::array<Separation, 3> separations{
     {{}, {.distance = 1e-8, .norm = Norm::l2}, {.distance = 1e250, .norm = Norm::linf}}};
 
-std::vector<AnyQuery> make_queries(const Generator& generator, const QueryShape& shape,
+std::vector<AnyQuery> make_queries(const Generator& generator, const AnyShape& shape,
                                    const Separation& separation, int count) {
   GeneratorContext context(separation);
   Random random(7);
@@ -45,7 +45,7 @@ std::vector<AnyQuery> make_queries(const Generator& generator, const QueryShape&
 TEST(Generators, MakeFiniteQueriesTheSameEveryTime) {
   for (const Separation& separation : separations) {
     for (const Generator& generator : generators(separation, true)) {
-      for (const QueryShape& shape : some_shapes) {
+      for (const AnyShape& shape : some_shapes) {
         const auto queries = make_queries(generator, shape, separation, tests::trials(160));
         EXPECT_TRUE(std::ranges::all_of(queries, is_valid)) << generator.name;
         EXPECT_TRUE(std::ranges::all_of(
@@ -62,7 +62,7 @@ TEST(Generators, MakeCollisionsAndMissesThatAreHard) {
   constexpr int count = 160;
   for (const Separation& separation : separations) {
     for (const Generator& generator : generators(separation, false)) {
-      for (const Kind kind : both_kinds) {
+      for (const ContactKind kind : both_kinds) {
         std::vector<double> numbers;
         for (const AnyQuery& query : make_queries(generator, {kind}, separation, count)) {
           numbers.insert(numbers.end(), query.numbers().begin(), query.numbers().end());
@@ -90,7 +90,7 @@ TEST(Mutated, StaysFiniteWhereverItStarts) {
   Random random(2);
   constexpr double greatest = std::numeric_limits<double>::max();
   for (const double start : {0.0, std::numeric_limits<double>::denorm_min(), -1.5, greatest}) {
-    for (const QueryShape& shape : {QueryShape{}, {.degree = 3}, {.is_rational = true}}) {
+    for (const AnyShape& shape : {AnyShape{}, {.degree = 3}, {.is_rational = true}}) {
       AnyQuery query(shape, std::vector<double>(shape.numbers_of_query(), start));
       for (std::size_t i = 3; shape.is_rational && i < query.numbers().size(); i += 4) {
         query.numbers()[i] = 0x1p39;  // a weight

@@ -37,7 +37,7 @@ std::vector<AnyQuery> random_queries(std::uint64_t seed, int count) {
   Random random(seed);
   std::vector<AnyQuery> result;
   for (int i = 0; i < count; ++i) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
       result.emplace_back(kind, tests::full_significand_query(random));
     }
   }
@@ -84,17 +84,18 @@ TEST(Shrink, ComesBackFromTheEndsOfTheRange) {
 
 /// True if the certified solver misses the query after rounding to floats.
 bool is_missed_in_float(const AnyQuery& query) {
+  const ContactKind kind = query.kind().contact();
   Query rounded = query.straight();
   for (double& x : rounded.coordinates) x = static_cast<double>(static_cast<float>(x));
-  return fast::solve(query.kind(), rounded).verdict == fast::Verdict::no &&
-         exact::decide(query.queries(), 0).collides();
+  return fast::solve(kind, rounded).verdict == fast::Verdict::no &&
+         exact::decide(kind, query.straight()).collides();
 }
 
 TEST(Shrink, MakesFindingsOfAMethodShort) {
   Random random(9);
   int missed = 0;
   for (int i = 0; i < tests::trials(48); ++i) {
-    const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
+    const ContactKind kind = i % 2 == 0 ? ContactKind::vertex_face : ContactKind::edge_edge;
     const AnyQuery query(kind, tests::near_contact_query(random, kind));
     if (!is_missed_in_float(query)) continue;
     ++missed;
@@ -116,10 +117,10 @@ TEST(Shrink, LeavesThePlainestQueryOfTheLeastShape) {
   for (const std::size_t degree : {3U, 4U}) {
     originals.push_back(of_numbers({.degree = degree, .is_rational = true}, {}, random));
   }
-  for (const QueryShape& shape : {QueryShape{},
-                                  {.degree = 2},
-                                  {.degree = 1, .is_rational = true},
-                                  {.degree = 3, .is_rational = true}}) {
+  for (const AnyShape& shape : {AnyShape{},
+                                {.degree = 2},
+                                {.degree = 1, .is_rational = true},
+                                {.degree = 3, .is_rational = true}}) {
     for (const AnyQuery& original : originals) {
       const auto is_at_least = [&](const AnyQuery& query) {
         return query.shape().degree >= shape.degree &&

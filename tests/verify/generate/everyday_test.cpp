@@ -14,13 +14,13 @@
 namespace touchstone::verify::generate::everyday_test {
 namespace {
 
-constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
+constexpr std::array<ContactKind, 2> both_kinds{ContactKind::vertex_face, ContactKind::edge_edge};
 
 template <class Use>
-void for_each_query(Query (*make)(Kind, Random&), int count, const Use& use) {
+void for_each_query(Query (*make)(ContactKind, Random&), int count, const Use& use) {
   Random random(1);
   for (int i = 0; i < count; ++i) {
-    const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
+    const ContactKind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
     use(kind, make(kind, random));
   }
 }
@@ -46,14 +46,14 @@ TEST(ShortestDecimal, IsTheUsualNotation) {
 
 TEST(EverydayContact, IsContactAlways) {
   int at_start = 0, at_end = 0, shared = 0, count = 0;
-  for_each_query(everyday_contact, tests::trials(4000), [&](Kind kind, const Query& query) {
+  for_each_query(everyday_contact, tests::trials(4000), [&](ContactKind kind, const Query& query) {
     const exact::Decision verdict = exact::decide(kind, query);
     ASSERT_TRUE(verdict.collides());
     ++count;
     const double toi = verdict.toi->enclosure().lower;
     at_start += toi == 0.0 ? 1 : 0;
     at_end += toi == 1.0 ? 1 : 0;
-    const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+    const std::size_t second = kind == ContactKind::vertex_face ? 1 : 2;
     for (std::size_t a = 0; a < second; ++a) {
       for (std::size_t b = second; b < moving_points; ++b) {
         shared += point_of(query, 0, a) == point_of(query, 0, b) &&
@@ -70,9 +70,10 @@ TEST(EverydayContact, IsContactAlways) {
 
 TEST(EverydayNearContact, MostlyDoesNotCollideByAUnit) {
   int no_collisions = 0;
-  for_each_query(everyday_near_contact, tests::trials(1000), [&](Kind kind, const Query& query) {
-    no_collisions += exact::decide(kind, query).collides() ? 0 : 1;
-  });
+  for_each_query(everyday_near_contact, tests::trials(1000),
+                 [&](ContactKind kind, const Query& query) {
+                   no_collisions += exact::decide(kind, query).collides() ? 0 : 1;
+                 });
   EXPECT_GT(no_collisions, tests::trials(1000) / 5);
   EXPECT_LT(no_collisions, tests::trials(1000));
 }

@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "tests/support/trials.hpp"
+#include "touchstone/any_kind.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
-#include "touchstone/query.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/judge/separation_inference.hpp"
 
@@ -29,12 +29,12 @@ using exact::Rational;
 
 constexpr std::uint64_t seed = 20211;
 constexpr std::uint64_t queries_a_family = tests::trials(120U);
-constexpr std::array<Kind, 2> kinds{Kind::vertex_face, Kind::edge_edge};
+constexpr std::array<ContactKind, 2> kinds{ContactKind::vertex_face, ContactKind::edge_edge};
 
 template <class Function>
 void for_each_family(Function&& function) {
   for (const Family& family : families()) {
-    for (const Kind kind : kinds) {
+    for (const ContactKind kind : kinds) {
       if (supports(family, kind)) function(family, kind);
     }
   }
@@ -42,7 +42,7 @@ void for_each_family(Function&& function) {
 
 template <class Function>
 void for_each_query(std::uint64_t count, Function&& function) {
-  for_each_family([&](const Family& family, Kind kind) {
+  for_each_family([&](const Family& family, ContactKind kind) {
     for (std::uint64_t index = 0; index < count; ++index) {
       SCOPED_TRACE(std::string(family.name) + " " + std::string(to_string(kind)) + " " +
                    std::to_string(index));
@@ -54,17 +54,17 @@ void for_each_query(std::uint64_t count, Function&& function) {
 TEST(Families, RejectUnknownNamesAndKinds) {
   const Family unknown{"no-such-family", "", Verdicts::both};
   EXPECT_THROW((void)family_from_name("no-such-family"), std::invalid_argument);
-  EXPECT_THROW((void)supports(unknown, Kind::edge_edge), std::invalid_argument);
-  EXPECT_THROW((void)make_query(unknown, Kind::edge_edge, 1, 0), std::invalid_argument);
+  EXPECT_THROW((void)supports(unknown, ContactKind::edge_edge), std::invalid_argument);
+  EXPECT_THROW((void)make_query(unknown, ContactKind::edge_edge, 1, 0), std::invalid_argument);
   const Family& triangles = family_from_name("needle-triangle");
-  EXPECT_TRUE(supports(triangles, Kind::vertex_face));
-  EXPECT_FALSE(supports(triangles, Kind::edge_edge));
-  EXPECT_THROW((void)make_query(triangles, Kind::edge_edge, 1, 0), std::invalid_argument);
-  EXPECT_THROW((void)open_family(triangles, Kind::edge_edge, 1, 1), std::invalid_argument);
+  EXPECT_TRUE(supports(triangles, ContactKind::vertex_face));
+  EXPECT_FALSE(supports(triangles, ContactKind::edge_edge));
+  EXPECT_THROW((void)make_query(triangles, ContactKind::edge_edge, 1, 0), std::invalid_argument);
+  EXPECT_THROW((void)open_family(triangles, ContactKind::edge_edge, 1, 1), std::invalid_argument);
 }
 
 TEST(Families, HaveNoQueryTwice) {
-  for_each_family([&](const Family& family, Kind kind) {
+  for_each_family([&](const Family& family, ContactKind kind) {
     std::set<std::array<double, 24>> seen;
     for (std::uint64_t index = 1; index < 400; index += 2) {
       EXPECT_TRUE(seen.insert(make_query(family, kind, seed, index).query.coordinates).second)
@@ -82,7 +82,7 @@ constexpr std::uint64_t empty_digest = 0xcbf29ce484222325ULL;
 
 TEST(Families, DrawTheSameBitsEverywhere) {
   std::uint64_t sum = empty_digest;
-  for_each_query(120, [&](const Family&, Kind, const KnownQuery& known) {
+  for_each_query(120, [&](const Family&, ContactKind, const KnownQuery& known) {
     for (const double x : known.query.coordinates) digest(sum, x);
   });
   EXPECT_EQ(sum, 2340645805834162717ULL);
@@ -90,9 +90,9 @@ TEST(Families, DrawTheSameBitsEverywhere) {
 
 /// Of queries of few bits and of others.
 TEST(Families, HaveThePromisedVerdicts) {
-  for (const auto list : {families(), element_families()}) {
+  for (const auto list : {families(), cell_families()}) {
     for (const Family& family : list) {
-      for (const Kind kind : all_kinds) {
+      for (const AnyKind kind : all_kinds) {
         if (!supports(family, kind)) continue;
         for (std::uint64_t parity = 0; parity < 2; ++parity) {
           std::size_t colliding = 0, apart = 0;
@@ -112,7 +112,7 @@ TEST(Families, HaveThePromisedVerdicts) {
 TEST(Families, KnowTheTimesOfNearlyAllCollisions) {
   const std::set<std::string_view> some_open{"interior-deforming", "tangential", "coplanar-instant",
                                              "scaled", "mixed-scales"};
-  for_each_query(queries_a_family, [&](const Family& family, Kind, const KnownQuery& known) {
+  for_each_query(queries_a_family, [&](const Family& family, ContactKind, const KnownQuery& known) {
     EXPECT_TRUE(known.collides || !known.toi);
     EXPECT_TRUE(some_open.contains(family.name) || known.toi.has_value() == known.collides);
   });
@@ -120,7 +120,7 @@ TEST(Families, KnowTheTimesOfNearlyAllCollisions) {
 
 TEST(Families, PrintedQueriesAreThoseOfThePaper) {
   const auto query_of = [](std::string_view name) {
-    return make_query(family_from_name(name), Kind::vertex_face, seed, 0);
+    return make_query(family_from_name(name), ContactKind::vertex_face, seed, 0);
   };
   const KnownQuery hourglass = query_of("hourglass");
   EXPECT_EQ(hourglass.query, (Query{{0.1, 0.1, 0.1, 0, 0, 1, 1, 0, 1, 0, 1, 1,  //
@@ -144,7 +144,7 @@ TEST(Families, ExtremeRangeReachesBothEndsOfTheDoubles) {
   std::size_t overflows = 0;
   for (std::uint64_t index = 0; index < 200; ++index) {
     const Query query =
-        make_query(family_from_name("extreme-range"), Kind::edge_edge, seed, index).query;
+        make_query(family_from_name("extreme-range"), ContactKind::edge_edge, seed, index).query;
     double above = 0, below = 0;
     for (const double coordinate : query.coordinates) {
       above = std::max(above, coordinate);
@@ -163,35 +163,34 @@ TEST(Families, ExtremeRangeReachesBothEndsOfTheDoubles) {
 
 TEST(CurvedFamilies, AreFoundByNameAndByDegree) {
   std::set<std::string_view> names;
-  for (const auto list :
-       {families(), separation_families(), curved_families(), element_families()}) {
+  for (const auto list : {families(), separation_families(), curved_families(), cell_families()}) {
     for (const Family& family : list) {
       EXPECT_TRUE(names.insert(family.name).second) << family.name;
       EXPECT_EQ(family_from_name(family.name).reason, family.reason);
     }
   }
   for (const Family& family : curved_families()) {
-    EXPECT_THROW((void)make_query(family, Kind::edge_edge, seed, 0), std::invalid_argument);
+    EXPECT_THROW((void)make_query(family, ContactKind::edge_edge, seed, 0), std::invalid_argument);
   }
   const auto count = [](const std::vector<std::string>& degrees) {
     return families({}, degrees).size();
   };
-  EXPECT_EQ(count({"1"}), families().size() + element_families().size());
+  EXPECT_EQ(count({"1"}), families().size() + cell_families().size());
   EXPECT_EQ(count({"2"}), 7U);
   EXPECT_EQ(count({"rational", "3"}), 9U);
   EXPECT_EQ(count({"1", "2", "3", "rational"}),
-            families().size() + curved_families().size() + element_families().size());
+            families().size() + curved_families().size() + cell_families().size());
 }
 
 /// With the times of impact.
 TEST(CurvedFamilies, DrawTheSameBitsEverywhere) {
   std::uint64_t sum = empty_digest;
   for (const Family& family : curved_families()) {
-    for (const Kind kind : kinds) {
+    for (const ContactKind kind : kinds) {
       SCOPED_TRACE(std::string(family.name) + " " + std::string(to_string(kind)));
       const auto source = open_family(family, kind, seed, 120);
       EXPECT_EQ(source->name(), family.name);
-      EXPECT_EQ(source->shape(), (QueryShape{kind, family.degree, family.is_rational}));
+      EXPECT_EQ(source->shape(), (AnyShape{kind, family.degree, family.is_rational}));
       std::uint64_t drawn = 0;
       while (const auto record = source->next()) {
         EXPECT_EQ(record->index, drawn++);
@@ -223,7 +222,7 @@ TEST(SeparationFamilies, AgreeWithTheOracle) {
       const Separation separation{.distance = distance, .norm = norm},
           less{.distance = std::nextafter(distance, 0.0), .norm = norm};
       for (const Family& family : separation_families()) {
-        for (const Kind kind : kinds) {
+        for (const ContactKind kind : kinds) {
           std::set<bool> verdicts;
           std::size_t times = 0, collisions = 0;
           for (std::uint64_t index = 0; index < queries_a_stream; ++index) {
@@ -258,8 +257,8 @@ TEST(SeparationFamilies, OddQueriesHaveFullSignificands) {
   for (const Family& family : separation_families()) {
     std::size_t full = 0;
     for (std::uint64_t index = 1; index < 40; index += 2) {
-      const KnownQuery known =
-          make_query(family, Kind::edge_edge, seed, index, {.distance = 1e-8, .norm = Norm::linf});
+      const KnownQuery known = make_query(family, ContactKind::edge_edge, seed, index,
+                                          {.distance = 1e-8, .norm = Norm::linf});
       full += uses_full_significands(known.query) ? 1U : 0U;
     }
     // Points and segments that only the distance places have the digits of its multiples.
@@ -273,9 +272,9 @@ TEST(SeparationFamilies, TheyNeedASeparationThatTheyCanDouble) {
     const Separation separation{.distance = distance, .norm = Norm::linf};
     EXPECT_FALSE(has_separation_families(separation));
     EXPECT_EQ(families(separation).size(), families().size());
-    EXPECT_THROW((void)make_query(family, Kind::vertex_face, seed, 0, separation),
+    EXPECT_THROW((void)make_query(family, ContactKind::vertex_face, seed, 0, separation),
                  std::invalid_argument);
-    EXPECT_THROW((void)open_family(family, Kind::vertex_face, seed, 1, separation),
+    EXPECT_THROW((void)open_family(family, ContactKind::vertex_face, seed, 1, separation),
                  std::invalid_argument);
   }
   EXPECT_EQ(families({.distance = 1.0, .norm = Norm::linf}).size(),

@@ -16,7 +16,7 @@
 
 #include "tests/support/trials.hpp"
 #include "touchstone/mesh.hpp"
-#include "touchstone/oracle.hpp"
+#include "verify/base/any_decision.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/generate/random_stream.hpp"
 
@@ -25,7 +25,8 @@ namespace {
 
 constexpr std::uint64_t seed = 7;
 
-data::QueryGroup group_of(std::string_view name, Kind kind, int level, std::uint64_t count = 16) {
+data::QueryGroup group_of(std::string_view name, ContactKind kind, int level,
+                          std::uint64_t count = 16) {
   return level_group(level_family(name), kind, level, seed, tests::trials(count));
 }
 
@@ -33,7 +34,7 @@ data::QueryGroup group_of(std::string_view name, Kind kind, int level, std::uint
 template <class Use>
 void for_each_level(std::string_view name, const Use& use) {
   for (int level = 1; level <= greatest_level; ++level) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
       SCOPED_TRACE(::testing::Message() << name << " " << level << " " << to_string(kind));
       use(level, kind, group_of(name, kind, level).queries());
     }
@@ -43,9 +44,9 @@ void for_each_level(std::string_view name, const Use& use) {
 TEST(Levels, AreHalfCollisionsOrContactsAlone) {
   for (const LevelFamily& family : level_families()) {
     const bool is_contact = family.name.ends_with("end-contact");
-    for_each_level(family.name, [&](int, Kind, const Queries& queries) {
+    for_each_level(family.name, [&](int, ContactKind, const AnyQueries& queries) {
       for (std::size_t i = 0; i < queries.size(); ++i) {
-        ASSERT_EQ(exact::decide(queries, i).collides(), is_contact || i % 2 == 0) << i;
+        ASSERT_EQ(base::decide(queries, i).collides(), is_contact || i % 2 == 0) << i;
       }
     });
   }
@@ -54,12 +55,12 @@ TEST(Levels, AreHalfCollisionsOrContactsAlone) {
 /// The least distance is that of the level, to the last bit.
 TEST(Levels, AreNearByExactlyTheDistance) {
   for (const std::string_view name : {"near", "near-on-curves"}) {
-    for_each_level(name, [&](int level, Kind, const Queries& queries) {
+    for_each_level(name, [&](int level, ContactKind, const AnyQueries& queries) {
       const double distance =
           3.0 * (name == "near" ? std::ldexp(1.0, -4 * level) : std::ldexp(4.0, -3 * level));
       for (std::size_t i = 1; i < queries.size(); i += 2) {
         const auto collides_at = [&](double d) {
-          return exact::decide(queries, i, {.distance = d, .norm = Norm::l2}).collides();
+          return base::decide(queries, i, {.distance = d, .norm = Norm::l2}).collides();
         };
         EXPECT_TRUE(collides_at(distance));
         EXPECT_FALSE(collides_at(std::nextafter(distance, 0.0)));
@@ -68,19 +69,20 @@ TEST(Levels, AreNearByExactlyTheDistance) {
   }
 }
 
-Eigen::Vector3d normal(Kind kind, const Query& query) {
+Eigen::Vector3d normal(ContactKind kind, const Query& query) {
   const auto side = [&](std::size_t a, std::size_t b) -> Eigen::Vector3d {
     return point_of(query, 0, b) - point_of(query, 0, a);
   };
-  return kind == Kind::vertex_face ? side(1, 2).cross(side(1, 3)) : side(0, 1).cross(side(2, 3));
+  return kind == ContactKind::vertex_face ? side(1, 2).cross(side(1, 3))
+                                          : side(0, 1).cross(side(2, 3));
 }
 
 TEST(Levels, HaveTheirAngle) {
-  for_each_level("parallel", [](int level, Kind kind, const Queries& queries) {
+  for_each_level("parallel", [](int level, ContactKind kind, const AnyQueries& queries) {
     for (const Query& query : queries.straight()) {
       const Eigen::Vector3d up = normal(kind, query);
       double tangent = 0.0;
-      if (kind == Kind::edge_edge) {
+      if (kind == ContactKind::edge_edge) {
         const Eigen::Vector3d a = point_of(query, 0, 1) - point_of(query, 0, 0),
                               b = point_of(query, 0, 3) - point_of(query, 0, 2);
         tangent = up.norm() / std::abs(a.dot(b));
@@ -97,7 +99,7 @@ TEST(Levels, HaveTheirAngle) {
 }
 
 TEST(Levels, AreFarFromTheOrigin) {
-  for_each_level("far", [](int level, Kind, const Queries& queries) {
+  for_each_level("far", [](int level, ContactKind, const AnyQueries& queries) {
     for (const Query& query : queries.straight()) {
       const double away = std::ldexp(point_of(query, 0, 0).norm(), -3 * level);
       EXPECT_GE(away, 3.0 * 0.7);
@@ -108,7 +110,7 @@ TEST(Levels, AreFarFromTheOrigin) {
 
 TEST(Levels, HaveTheirScaleAndDecimals) {
   for (const std::string_view name : {"end-contact", "decimal-end-contact"}) {
-    for_each_level(name, [&](int level, Kind, const Queries& queries) {
+    for_each_level(name, [&](int level, ContactKind, const AnyQueries& queries) {
       const double scale = std::pow(10.0, level - 4);
       double greatest = 0.0;
       for (const double x : queries.numbers) {
@@ -124,21 +126,23 @@ TEST(Levels, HaveTheirScaleAndDecimals) {
 }
 
 TEST(Levels, AreTheSameEverywhereAndDifferByEveryArgument) {
-  const auto digest = [](std::string_view name, Kind kind, int level, std::uint64_t of_seed) {
+  const auto digest = [](std::string_view name, ContactKind kind, int level,
+                         std::uint64_t of_seed) {
     std::uint64_t value = 0;
     const data::QueryGroup group = level_group(level_family(name), kind, level, of_seed, 4);
     for (const double x : group.queries().numbers)
       value = mix(value ^ std::bit_cast<std::uint64_t>(x));
     return value;
   };
-  const std::uint64_t one = digest("near", Kind::vertex_face, 5, seed);
-  const std::set<std::uint64_t> all{
-      one, digest("near", Kind::edge_edge, 5, seed), digest("near", Kind::vertex_face, 6, seed),
-      digest("near", Kind::vertex_face, 5, seed + 1), digest("far", Kind::vertex_face, 5, seed)};
+  const std::uint64_t one = digest("near", ContactKind::vertex_face, 5, seed);
+  const std::set<std::uint64_t> all{one, digest("near", ContactKind::edge_edge, 5, seed),
+                                    digest("near", ContactKind::vertex_face, 6, seed),
+                                    digest("near", ContactKind::vertex_face, 5, seed + 1),
+                                    digest("far", ContactKind::vertex_face, 5, seed)};
   EXPECT_EQ(all.size(), 5U);
   EXPECT_EQ(one, 4364827704357140360U);
-  EXPECT_EQ(group_of("near-on-curves", Kind::edge_edge, 1).shape(),
-            (QueryShape{.kind = Kind::edge_edge, .degree = 2}));
+  EXPECT_EQ(group_of("near-on-curves", ContactKind::edge_edge, 1).shape(),
+            (AnyShape{.kind = ContactKind::edge_edge, .degree = 2}));
   EXPECT_THROW((void)level_family("easy"), std::invalid_argument);
 }
 

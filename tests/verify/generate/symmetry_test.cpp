@@ -11,16 +11,17 @@
 #include <vector>
 
 #include "tests/support/trials.hpp"
+#include "touchstone/any_kind.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
-#include "touchstone/query.hpp"
+#include "verify/base/any_decision.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/generate/random_stream.hpp"
 
 namespace touchstone::verify::generate::symmetry_test {
 namespace {
 
-constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
+constexpr std::array<ContactKind, 2> both_kinds{ContactKind::vertex_face, ContactKind::edge_edge};
 
 Query counting() {
   Query query{};
@@ -71,7 +72,7 @@ TEST(Symmetry, DrawsEveryIngredientAndOnlyExactImages) {
   const auto is_beyond_1 = [](double factor) { return std::abs(factor) > 1.0; };
   std::array<bool, 5> seen{};
   for (int i = 0; i < 2000; ++i) {
-    const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
+    const ContactKind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
     const Query query = fuzz::generators()[1].make({kind}, context, random).straight();
     const Symmetry symmetry = draw_symmetry(kind, query, {}, random);
     ASSERT_TRUE(image(symmetry, query));
@@ -85,11 +86,11 @@ TEST(Symmetry, DrawsEveryIngredientAndOnlyExactImages) {
   EXPECT_TRUE(std::ranges::all_of(seen, std::identity{}));
 }
 
-void expect_same_truth(const Queries& query, const Separation& separation,
+void expect_same_truth(const AnyQueries& query, const Separation& separation,
                        const Symmetry& symmetry) {
-  const exact::Decision truth = exact::decide(query, 0, separation);
+  const exact::Decision truth = base::decide(query, 0, separation);
   const exact::Decision of_image =
-      exact::decide(Queries(query, image(symmetry, query).value()), 0, separation);
+      base::decide(AnyQueries(query, image(symmetry, query).value()), 0, separation);
   ASSERT_EQ(truth.collides(), of_image.collides());
   if (!truth.collides() || symmetry.reversed) return;
   const exact::DoubleInterval toi = truth.toi->enclosure(), image_toi = of_image.toi->enclosure();
@@ -105,16 +106,16 @@ TEST(Symmetry, KeepsTheOraclesVerdictAndTime) {
   for (const Separation& separation : separations) {
     const fuzz::GeneratorContext context(separation);
     for (int i = 0; i < tests::trials(240); ++i) {
-      const Kind kind = all_kinds.at(static_cast<std::size_t>(i % 4));
-      if (is_element(kind) && !is_zero(separation)) continue;
+      const AnyKind kind = all_kinds.at(static_cast<std::size_t>(i % 4));
+      if (kind.is_cell() && !is_zero(separation)) continue;
       const auto& generator = fuzz::generators()[1 + static_cast<std::size_t>(i % 7)];
       // Half of them on curves.
-      const bool is_curved = !is_element(kind) && i % 8 > 3;
-      const QueryShape shape{kind, is_curved ? 2U : 1U, is_curved && i % 16 > 7};
+      const bool is_curved = !kind.is_cell() && i % 8 > 3;
+      const AnyShape shape{kind, is_curved ? 2U : 1U, is_curved && i % 16 > 7};
       const base::AnyQuery query = generator.make(shape, context, random);
       const Symmetry symmetry = draw_symmetry(query.queries(), separation, random);
       expect_same_truth(query.queries(), separation, symmetry);
-      ++(exact::decide(query.queries(), 0, separation).collides() ? collisions : others);
+      ++(base::decide(query.queries(), 0, separation).collides() ? collisions : others);
     }
   }
   EXPECT_GT(collisions, tests::trials(80));

@@ -17,7 +17,7 @@ TEST(Workload, PatchesHaveEnoughCandidatesOfWhichSomePerCentCollideWithAnySeed) 
   static constexpr std::size_t asked = 2000;
   for (const std::uint64_t seed : {0U, 1U, 2021U, 4711U, 0xFFFFFFFFU}) {
     const mesh::MovingMesh mesh = moving_patches({.seed = seed});
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
       const std::vector<Query> queries = mesh::candidates_of(mesh, kind);
       EXPECT_GE(queries.size(), 100'000U) << seed << to_string(kind);
       EXPECT_LE(queries.size(), 1'000'000U) << seed << to_string(kind);

@@ -60,9 +60,9 @@ BenchRow row_of(const data::QueryGroup& group, FunctionMethod::Function function
   return row_of(group, *solvers::solver_in_process(method, {}), options);
 }
 
-Answer always_yes(Kind, const Query&) { return {.verdict = Verdict::yes}; }
+Answer always_yes(AnyKind, const Query&) { return {.verdict = Verdict::yes}; }
 
-Answer late(Kind kind, const Query& query) {
+Answer late(AnyKind kind, const Query& query) {
   Answer answer = tests::true_answer(kind, query);
   answer.toi_lower = std::nextafter(answer.toi_upper, 2.0);
   answer.toi_upper = Answer::none;
@@ -78,7 +78,7 @@ std::uint64_t all_faults(const judge::Judgement& judgement) {
 TEST(Bench, CountsWhatASolverGetsWrong) {
   using enum judge::Fault;
   struct Row {
-    Answer (*function)(Kind, const Query&);
+    Answer (*function)(AnyKind, const Query&);
     Promise promise;
     std::optional<judge::Fault> fault;
     std::size_t count = 0;
@@ -109,7 +109,7 @@ TEST(Bench, CountsWhatASolverGetsWrong) {
 
 /// Methods of lines are not asked about curves.
 TEST(Bench, TakesCurvesAndSeparations) {
-  const data::QueryGroup curves = tests::curved_group(Kind::vertex_face, 30);
+  const data::QueryGroup curves = tests::curved_group(ContactKind::vertex_face, 30);
   const auto certified = fast::certified_method();
   const auto solver = solvers::solver_in_process(*certified, {});
   const BenchRow right = row_of(curves, *solver, quick());
@@ -131,7 +131,7 @@ TEST(Bench, JudgesAPartAndWhatIsCalledACollision) {
     return static_cast<std::size_t>(std::ranges::count_if(sample, collides));
   };
   struct Row {
-    Answer (*function)(Kind, const Query&);
+    Answer (*function)(AnyKind, const Query&);
     std::size_t most, count, collisions;
   };
   const data::QueryGroup group = falling_vertices(1000);
@@ -152,7 +152,7 @@ TEST(Bench, JudgesAPartAndWhatIsCalledACollision) {
 
 TEST(Bench, CountsQueriesThatReachTheLimitOfChecks) {
   const FunctionMethod method(
-      [](Kind, const Query& query) {
+      [](AnyKind, const Query& query) {
         const bool is_hard = query.at(1, 0, 2) < 0.0;
         return Answer{.verdict = Verdict::yes, .checks = is_hard ? 10U : 9U};
       },

@@ -32,12 +32,12 @@ using tests::MemorySource;
 /// A vertex falls from height `above` to height −`below` through the middle of a resting triangle:
 /// they collide iff below ≥ 0, at above/(above + below).
 base::AnyQuery falling_vertex(double above, double below) {
-  return {Kind::vertex_face, tests::over_triangle(1, 1, above, -below).query};
+  return {ContactKind::vertex_face, tests::over_triangle(1, 1, above, -below).query};
 }
 
 CertifyResult certify_records(std::vector<data::RecordedQuery> records,
                               const CertifyOptions& options = {}) {
-  MemorySource source(Kind::vertex_face, std::move(records));
+  MemorySource source(ContactKind::vertex_face, std::move(records));
   return certify(source, options);
 }
 
@@ -92,7 +92,7 @@ std::vector<data::RecordedQuery> proved_records(std::uint64_t count) {
 TEST(Prove, WritesEveryCertificateInOrderWhateverTheThreads) {
   std::string first;
   for (const unsigned threads : {1U, 3U}) {
-    MemorySource source(Kind::vertex_face, proved_records(9000));
+    MemorySource source(ContactKind::vertex_face, proved_records(9000));
     std::string text(exact::certificates_header());
     const CertifyResult result = certify(
         source,
@@ -175,7 +175,7 @@ TEST(Budget, SharesWhatIsLeftOverSourcesAndSolvers) {
   // Without time queries are left out.
   const std::vector<Query> queries(3);
   std::vector<Answer> answers(3);
-  const auto reply = first->solve({.queries = {Kind::vertex_face, queries}}, answers);
+  const auto reply = first->solve({.queries = {ContactKind::vertex_face, queries}}, answers);
   ASSERT_EQ(reply.unasked.size(), 3U);
   EXPECT_EQ(reply.unasked.front().why, judge::Unasked::left_out);
   EXPECT_FALSE(reply.stopped);
@@ -183,7 +183,7 @@ TEST(Budget, SharesWhatIsLeftOverSourcesAndSolvers) {
 
 TEST(CertifyMethods, FaultsAreFoundWhereverTheyAreInALongSource) {
   for (const unsigned threads : {1U, 3U}) {
-    const FunctionMethod method([](Kind kind, const Query& query) {
+    const FunctionMethod method([](AnyKind kind, const Query& query) {
       const std::uint64_t number = number_of(query);
       return number % 1000 == 1 ? Answer{.verdict = fast::Verdict::no} : true_answer(kind, query);
     });
@@ -207,7 +207,7 @@ TEST(CertifyMethods, FaultsAreFoundWhereverTheyAreInALongSource) {
 TEST(CertifyMethods, AStopInSlowAnswersIsObeyedSoonAndLeavesAPrefix) {
   std::atomic<bool> stop = false;
   std::atomic<int> asked = 0;
-  const FunctionMethod slow([&](Kind kind, const Query& query) {
+  const FunctionMethod slow([&](AnyKind kind, const Query& query) {
     if (++asked == 300) stop = true;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return true_answer(kind, query);
@@ -230,7 +230,7 @@ TEST(CertifyMethods, AStopInSlowAnswersIsObeyedSoonAndLeavesAPrefix) {
 }
 
 TEST(Certify, AnErrorOfTheSourceLosesNothingBeforeIt) {
-  MemorySource source(Kind::vertex_face, numbered_records(3000));
+  MemorySource source(ContactKind::vertex_face, numbered_records(3000));
   source.fail_at(2005, "row is broken");
   const CertifyResult result = certify(source);
   EXPECT_EQ(result.queries, 2005U);
@@ -242,7 +242,7 @@ TEST(Certify, AnErrorOfTheSourceLosesNothingBeforeIt) {
 class InterruptedSource final : public data::QuerySource {
  public:
   [[nodiscard]] const std::string& name() const override { return name_; }
-  [[nodiscard]] QueryShape shape() const override { return {.kind = Kind::vertex_face}; }
+  [[nodiscard]] AnyShape shape() const override { return {.kind = ContactKind::vertex_face}; }
   [[nodiscard]] std::optional<data::RecordedQuery> next() override {
     if (position_ == 5) throw io::Interrupted();
     return data::RecordedQuery{
@@ -282,7 +282,7 @@ TEST_P(BuiltInSet, AgreesWithTheOracle) {
   const std::uint64_t count = tests::soak_trials(1000U, 120U);
   CertifyOptions options;
   options.toi_tolerance = 0;
-  for (const Kind kind : all_kinds) {
+  for (const AnyKind kind : all_kinds) {
     if (!generate::supports(GetParam(), kind)) continue;
     const auto source = generate::open_family(GetParam(), kind, 1, count);
     const CertifyResult result = certify(*source, options);
@@ -306,7 +306,7 @@ std::string family_name(const ::testing::TestParamInfo<generate::Family>& info) 
 std::vector<generate::Family> all_families() {
   std::vector<generate::Family> all;
   for (const auto list :
-       {generate::families(), generate::curved_families(), generate::element_families()}) {
+       {generate::families(), generate::curved_families(), generate::cell_families()}) {
     all.insert(all.end(), list.begin(), list.end());
   }
   return all;
@@ -316,7 +316,7 @@ INSTANTIATE_TEST_SUITE_P(Families, BuiltInSet, ::testing::ValuesIn(all_families(
 
 /// Answers alone: nothing is decided, and all are handed out in order.
 TEST(CertifyMethods, AnswersWithoutATruth) {
-  const FunctionMethod method([](Kind, const Query& query) {
+  const FunctionMethod method([](AnyKind, const Query& query) {
     return Answer{.verdict = fast::Verdict::yes,
                   .toi_lower = static_cast<double>(number_of(query))};
   });

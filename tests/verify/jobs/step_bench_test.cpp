@@ -29,7 +29,7 @@ struct Expected {
   double earliest_upper = 2.0;
 };
 
-Expected expected(const mesh::MovingMesh& mesh, Kind kind) {
+Expected expected(const mesh::MovingMesh& mesh, ContactKind kind) {
   const std::vector<Query> candidates = mesh::candidates_of(mesh, kind);
   Expected all{.candidates = candidates.size()};
   for (const Query& query : candidates) {
@@ -51,8 +51,8 @@ TEST(StepBench, FindsTheCollisionsAndTheEarliestOne) {
                           told.push_back(fraction);
                         }});
   EXPECT_EQ(told, (std::vector<double>{1.0 / 3.0, 2.0 / 3.0, 1.0}));
-  const Expected vertices = expected(mesh, Kind::vertex_face);
-  const Expected edges = expected(mesh, Kind::edge_edge);
+  const Expected vertices = expected(mesh, ContactKind::vertex_face);
+  const Expected edges = expected(mesh, ContactKind::edge_edge);
   EXPECT_EQ(result.name, "patches");
   EXPECT_EQ(result.vertices, mesh.vertices.size());
   EXPECT_EQ(result.edges, mesh.edges.size());

@@ -95,9 +95,9 @@ TEST(TimedSolver, ItsSampleGrowsAsLongAsItIsFast) {
 }
 
 TEST(Sample, OfCurvesIsCopiedWhole) {
-  const data::QueryGroup group = tests::curved_group(Kind::edge_edge, 40);
+  const data::QueryGroup group = tests::curved_group(ContactKind::edge_edge, 40);
   const auto some = sample_of(group, 16), all = sample_of(group, 100);
-  EXPECT_EQ(QueryShape(some->queries), (QueryShape{.kind = Kind::edge_edge, .degree = 2}));
+  EXPECT_EQ(AnyShape(some->queries), (AnyShape{.kind = ContactKind::edge_edge, .degree = 2}));
   ASSERT_EQ(some->queries.size(), 16U);
   for (std::size_t i = 0; i < 16; ++i) {
     EXPECT_TRUE(std::ranges::equal(some->queries.row(i), group.queries().row(some->positions[i])));
@@ -107,9 +107,10 @@ TEST(Sample, OfCurvesIsCopiedWhole) {
 }
 
 TEST(TimedSolver, TakesCurvesOrLinesOfWhateverKind) {
-  const QueryShape line{.kind = Kind::edge_edge}, parabola{.kind = Kind::edge_edge, .degree = 2};
-  const fast::Terms lines{.kinds = {true, false}},
-      curves{.kinds = {true, false}, .straight = false, .most_degree = 8};
+  const AnyShape line{.kind = ContactKind::edge_edge},
+      parabola{.kind = ContactKind::edge_edge, .degree = 2};
+  const fast::Terms lines{.contacts = {true, false}},
+      curves{.contacts = {true, false}, .straight = false, .most_degree = 8};
   EXPECT_TRUE(takes_curves(lines, line));
   EXPECT_FALSE(takes_curves(lines, parabola));
   EXPECT_TRUE(takes_curves(curves, parabola));

@@ -22,14 +22,14 @@ constexpr Query falling{{1, 1, 2, 0, 0, 0, 4, 0, 0, 0, 4, 0,  //
 
 /// The distance that a yes of Tight-Inclusion claims.
 double claimed_with_filter(double tolerance, const Query& query, double distance) {
-  return claimed_distance(fast::error_filter, Kind::vertex_face, query,
+  return claimed_distance(fast::error_filter, ContactKind::vertex_face, query,
                           {.verdict = Verdict::yes, .tolerance = tolerance},
                           {.distance = distance, .norm = Norm::linf})
       .distance;
 }
 
 Separation stated(double tolerance, const Separation& separation) {
-  return claimed_distance(nullptr, Kind::vertex_face, falling,
+  return claimed_distance(nullptr, ContactKind::vertex_face, falling,
                           {.verdict = Verdict::yes, .tolerance = tolerance}, separation);
 }
 
@@ -46,7 +46,7 @@ TEST(StatedDistance, IsToleranceAndSeparationRoundedUpInTheNormAskedFor) {
 
 TEST(ClaimedDistance, IsTheSumRoundedUpAndHardlyMore) {
   const double tolerance = 0.1, distance = 1e-3;
-  const double filter = fast::error_filter(Kind::vertex_face, {4, 4, 2}, distance)[0];
+  const double filter = fast::error_filter(ContactKind::vertex_face, {4, 4, 2}, distance)[0];
   ASSERT_GT(filter, 0.0);
   const Rational sum = Rational(tolerance) + Rational(distance) + 2 * Rational(filter);
   const Rational claimed(claimed_with_filter(tolerance, falling, distance));
@@ -69,7 +69,7 @@ TEST(ClaimedDistance, TightInclusionKeepsItOnWhatItCannotTellFromContact) {
   for (const double distance : {0.0, 1e-8, 1e-30}) {
     const Separation separation{.distance = distance, .norm = Norm::linf};
     for (const generate::Family& family : generate::families(separation)) {
-      for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
         if (!generate::supports(family, kind)) continue;
         for (std::uint64_t index = 0; index < 4; ++index) {
           const Query query = generate::make_query(family, kind, 7, index, separation).query;
@@ -93,7 +93,7 @@ TEST(ClaimedDistance, TightInclusionKeepsItOnWhatItCannotTellFromContact) {
 /// The vertex comes down from 2 to 1 over the triangle.
 TEST(ClaimedDistance, NearnessIsSeenWhereTheBoundsLeaveRoom) {
   const auto is_seen = [](double t, double distance) {
-    return is_seen_within(Kind::vertex_face, falling, t, distance);
+    return is_seen_within(ContactKind::vertex_face, falling, t, distance);
   };
   EXPECT_TRUE(is_seen(1.0, 1.0 + 1e-12));
   EXPECT_FALSE(is_seen(1.0, 1.0)) << "right, but within the bounds";
@@ -107,7 +107,7 @@ TEST(ClaimedDistance, NearnessIsSeenWhereTheBoundsLeaveRoom) {
 TEST(ClaimedDistance, WhatIsSeenIsTrue) {
   std::size_t seen = 0, near = 0;
   for (const generate::Family& family : generate::families({})) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
       if (!generate::supports(family, kind)) continue;
       for (std::uint64_t index = 0; index < 6; ++index) {
         const Query query = generate::make_query(family, kind, 11, index, {}).query;

@@ -186,7 +186,7 @@ TEST(JudgeVerdict, AgreesWithExactComparison) {
   tests::Random random(41);
   int compared = 0, between_doubles = 0;
   for (std::size_t i = 0; i < 2000; ++i) {
-    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+    const ContactKind kind = random.coin() ? ContactKind::vertex_face : ContactKind::edge_edge;
     const Query query = tests::random_query(random, kind, tests::all_families[i % 4]).query;
     const exact::Decision verdict = exact::decide(kind, query);
     if (!verdict.collides()) continue;

@@ -90,7 +90,7 @@ data::QueryGroup falling() {
   for (const double end : {-1.0, 0.5, -3.0, 0.25}) {
     queries.push_back(tests::over_triangle(1, 1, 1, end).query);
   }
-  return {"falling", Kind::vertex_face, std::move(queries)};
+  return {"falling", ContactKind::vertex_face, std::move(queries)};
 }
 
 /// A stopped cache returns what it knows without the oracle.
@@ -130,7 +130,7 @@ using fast::Terms;
 
 /// A vertex that falls from that height onto a triangle.
 base::AnyQuery falling_from(double height) {
-  return {Kind::vertex_face, tests::over_triangle(1, 1, height, -2).query};
+  return {ContactKind::vertex_face, tests::over_triangle(1, 1, height, -2).query};
 }
 
 TEST(Terms, TheStartIsApartByMoreThanSeparationAndDistance) {
@@ -161,34 +161,34 @@ TEST(Terms, CurvesStartAtTheirFirstControlPointsAndAreAnsweredByDegree) {
   const Query line = falling_from(0.5).straight();
   std::vector<double> numbers(line.coordinates.begin(), line.coordinates.end());
   numbers.insert(numbers.end(), line.coordinates.begin() + 12, line.coordinates.end());
-  const base::AnyQuery curve({.kind = Kind::vertex_face, .degree = 2}, numbers);
+  const base::AnyQuery curve({.kind = ContactKind::vertex_face, .degree = 2}, numbers);
   EXPECT_FALSE(admits({}, curve, {}));
   EXPECT_FALSE(admits({.least_degree = 3, .most_degree = 8}, curve, {}));
   const Terms terms{.least_degree = 1, .most_degree = 2, .starts_apart = 0.25};
   EXPECT_TRUE(admits(terms, curve, {0.125, Norm::l2}));
   EXPECT_FALSE(admits(terms, curve, {0.25, Norm::l2}));
-  EXPECT_TRUE(terms.answers(QueryShape{.degree = 1}));
-  EXPECT_FALSE(terms.answers(QueryShape{.degree = 2, .is_rational = true}));
+  EXPECT_TRUE(terms.answers(AnyShape{.degree = 1}));
+  EXPECT_FALSE(terms.answers(AnyShape{.degree = 2, .is_rational = true}));
 }
 
-TEST(Terms, ElementsStartWithAPositiveVolume) {
-  const Terms terms{.kinds = {false, false, true}, .starts_apart = 0.0};
+TEST(Terms, CellsStartWithAPositiveVolume) {
+  const Terms terms{.contacts = {false, false}, .cells = {true, false}, .starts_apart = 0.0};
   const Query resting = tests::moving({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0x1p-1000},
                                       {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, -1});
   Query flat = resting;
   flat.at(0, 3, 2) = 0.0;
-  EXPECT_TRUE(admits(terms, {Kind::tetrahedron, resting}, {}));
-  EXPECT_FALSE(admits(terms, {Kind::tetrahedron, flat}, {}));
-  EXPECT_FALSE(admits(terms, {Kind::plane_triangle, resting}, {}));
-  EXPECT_FALSE(admits({}, {Kind::tetrahedron, resting}, {}));
+  EXPECT_TRUE(admits(terms, {CellKind::tetrahedron, resting}, {}));
+  EXPECT_FALSE(admits(terms, {CellKind::tetrahedron, flat}, {}));
+  EXPECT_FALSE(admits(terms, {CellKind::plane_triangle, resting}, {}));
+  EXPECT_FALSE(admits({}, {CellKind::tetrahedron, resting}, {}));
 }
 
 TEST(Terms, NameTheKindsWhereTheyAreNotBothAboutContact) {
-  EXPECT_EQ(to_text({.kinds = {true, true, true}}), "");
-  EXPECT_EQ(to_text({.kinds = {true, false}}), ", vertex-face alone");
-  const Terms of_elements{.kinds = {false, false, true, true}};
-  EXPECT_EQ(to_text(of_elements), ", tetrahedron and plane-triangle alone");
-  EXPECT_EQ(as_options(of_elements), " --answers-kinds tetrahedron --answers-kinds plane-triangle");
+  EXPECT_EQ(to_text({.cells = {true, false}}), "");
+  EXPECT_EQ(to_text({.contacts = {true, false}}), ", vertex-face alone");
+  const Terms of_cells{.contacts = {false, false}, .cells = {true, true}};
+  EXPECT_EQ(to_text(of_cells), ", tetrahedron and plane-triangle alone");
+  EXPECT_EQ(as_options(of_cells), " --answers-kinds tetrahedron --answers-kinds plane-triangle");
 }
 
 }  // namespace

@@ -29,10 +29,10 @@
 #include "tests/support/root_count.hpp"
 #include "tests/support/simulation_steps.hpp"
 #include "tests/support/trials.hpp"
+#include "touchstone/any_kind.hpp"
 #include "touchstone/mesh.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
-#include "touchstone/query.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/generate/everyday.hpp"
@@ -63,7 +63,7 @@ using tests::truly_collides;
 using tests::vertex_face;
 using tests::within;
 
-constexpr std::array kinds{Kind::vertex_face, Kind::edge_edge};
+constexpr std::array kinds{ContactKind::vertex_face, ContactKind::edge_edge};
 constexpr Verdict yes = Verdict::yes, no = Verdict::no, undecided = Verdict::undecided;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 using Rows = std::vector<tests::SaidRow>;
@@ -200,7 +200,7 @@ class Baselines : public testing::TestWithParam<Baseline> {
   }
 
   void expect_wrong(const std::string& folder, const Wrong& expected) const {
-    const auto score = [&](Kind kind) {
+    const auto score = [&](ContactKind kind) {
       const tests::Score of_kind = tests::score_on_public_data(asked, baseline.on_public_data,
                                                                folder, kind, baseline.stride);
       if (baseline.promise != Promise::none) {
@@ -208,7 +208,8 @@ class Baselines : public testing::TestWithParam<Baseline> {
       }
       return of_kind;
     };
-    const tests::Score faces = score(Kind::vertex_face), edges = score(Kind::edge_edge);
+    const tests::Score faces = score(ContactKind::vertex_face),
+                       edges = score(ContactKind::edge_edge);
     if (faces.collisions == 0) GTEST_SKIP() << "public data missing";
     const std::array found{faces.false_negatives, faces.false_positives, edges.false_negatives,
                            edges.false_positives};
@@ -251,14 +252,14 @@ TEST_P(Baselines, AnswerAlikeInAnyOrderAndAnyRounding) {
   std::vector<Query> queries{over_edge(1, 2, 0.7, -1.3).query};
   for (int i = 0; i < 60; ++i) {
     const auto family = i % 2 == 0 ? tests::Family::tiny_integers : tests::Family::near_contact;
-    queries.push_back(tests::random_query(random, Kind::edge_edge, family).query);
+    queries.push_back(tests::random_query(random, ContactKind::edge_edge, family).query);
   }
   std::vector<fast::Answer> expected(queries.size()), found(queries.size());
-  asked.solve(Queries(Kind::edge_edge, queries), expected, short_search);
+  asked.solve(AnyQueries(ContactKind::edge_edge, queries), expected, short_search);
   std::ranges::reverse(queries);
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {
     std::fesetround(mode);
-    asked.solve(Queries(Kind::edge_edge, queries), found, short_search);
+    asked.solve(AnyQueries(ContactKind::edge_edge, queries), found, short_search);
     const int after = std::fegetround();
     const double sum = tests::one_and_a_little();
     std::fesetround(FE_TONEAREST);
@@ -376,7 +377,7 @@ Rows rows_of_msrf() {
             {"msrf", near, {no}, wrong, within(0.5)},
             {"msrf", over_triangle(1, 1, 1, 0.25), {yes}, right, within(0.5)},
             {"msrf", over_triangle(1, 1, 0, 0), {no}, wrong},
-            {"msrf", {Kind::vertex_face, Query{}}, {no}, wrong},
+            {"msrf", {ContactKind::vertex_face, Query{}}, {no}, wrong},
             {"msrf", over_edge(4.25, 2, 1, -1), {no}, wrong, within(0.25)},
             {"msrf", parallel_edges(), {no}, wrong, within(0.25)},
             // A vertex has candidates for the edges and vertices of a face.
@@ -466,14 +467,15 @@ TEST(Published, DefectsOfSingleQueries) {
 /// FPRF misses deforming triangles whatever its separation, and by chance without one; MSRF the
 /// more the smaller its separation.
 TEST(Published, MsrfAndFprfMissAShareOfContactsInTheMiddle) {
-  const auto missed = [](std::string_view name, Kind kind, Movement movement, double distance) {
+  const auto missed = [](std::string_view name, ContactKind kind, Movement movement,
+                         double distance) {
     constexpr int count = 4000;
     return missed_centre_hits(method(name), kind, movement, within(distance), count) /
            (1.0 * count);
   };
-  EXPECT_NEAR(missed("fprf", Kind::vertex_face, Movement::independent, 1e-3), 0.288, 0.04);
-  EXPECT_EQ(missed("fprf", Kind::edge_edge, Movement::independent, 1e-3), 0);
-  for (const Kind kind : kinds) {
+  EXPECT_NEAR(missed("fprf", ContactKind::vertex_face, Movement::independent, 1e-3), 0.288, 0.04);
+  EXPECT_EQ(missed("fprf", ContactKind::edge_edge, Movement::independent, 1e-3), 0);
+  for (const ContactKind kind : kinds) {
     EXPECT_EQ(missed("fprf", kind, Movement::translation, 1e-3), 0);
     const double by_chance = missed("fprf", kind, Movement::translation, 0.0);
     EXPECT_GT(by_chance, 0.05) << to_string(kind);
@@ -486,7 +488,7 @@ TEST(Published, MsrfAndFprfMissAShareOfContactsInTheMiddle) {
 
 TEST(Published, RpAndRrpSayYesExactlyToOddNumbersOfRoots) {
   Random random(1);
-  for (const Kind kind : kinds) {
+  for (const ContactKind kind : kinds) {
     int odd = 0, missed = 0;
     for (int i = 0; i < 6000; ++i) {
       const PosedQuery posed = tests::deforming_query(random, kind);
@@ -511,14 +513,14 @@ TEST(Published, RpKeepsItsAnswersAtScalesThatAreNotTiny) {
   Random random(3);
   tests::Score tiny;
   for (int i = 0; i < 1000; ++i) {
-    for (const Kind kind : kinds) {
+    for (const ContactKind kind : kinds) {
       const PosedQuery posed = tests::deforming_query(random, kind);
       const bool is_yes = says_yes(method("rp"), posed);
       for (const int exponent : {-30, 60, 300}) {
         if (i >= tests::trials(200)) break;
         EXPECT_EQ(is_yes, says_yes(method("rp"), scaled(posed, exponent))) << exponent;
       }
-      if (kind == Kind::edge_edge) continue;
+      if (kind == ContactKind::edge_edge) continue;
       tiny.count(is_yes, says_yes(method("rp"), scaled(posed, -100)));
     }
   }
@@ -536,7 +538,7 @@ bool has_inflection(const PosedQuery& posed) {
 /// And at every scale below.
 TEST(Published, BscIsRightInGeneralPositionButForInflections) {
   Random random(1);
-  for (const Kind kind : kinds) {
+  for (const ContactKind kind : kinds) {
     tests::Score without, with;
     for (int i = 0; i < tests::trials(4000); ++i) {
       const PosedQuery posed = random_query(random, kind, tests::Family::full_significands);
@@ -557,7 +559,7 @@ TEST(Published, BscMissesAndTccdInventsAllMotionInAPlane) {
   Random random(3);
   int collisions = 0, all = 0;
   for (int i = 0; i < tests::trials(500); ++i) {
-    for (const Kind kind : kinds) {
+    for (const ContactKind kind : kinds) {
       PosedQuery posed{kind, tests::full_significand_query(random)};
       tests::flatten(posed.query, 1);
       collisions += truly_collides(posed) ? 1 : 0;
@@ -576,7 +578,7 @@ TEST(Published, BscMissesByItsThresholdAtLargeScales) {
   Random random(4);
   int missed_at_1 = 0, missed_at_large = 0;
   for (int i = 0; i < 2000; ++i) {
-    PosedQuery posed{Kind::vertex_face, tests::full_significand_query(random)};
+    PosedQuery posed{ContactKind::vertex_face, tests::full_significand_query(random)};
     // The vertex starts on the middle of the edge from f0 to f1 if that is a double.
     for (std::size_t axis = 0; axis < 3; ++axis) {
       double& f1 = posed.query.at(0, 2, axis);
@@ -595,7 +597,7 @@ TEST(Published, BscMissesByItsThresholdAtLargeScales) {
 
 /// On boundaries near misses are not distinguished from collisions.
 TEST(Published, TccdIsRightInGeneralPositionAndFindsContactsOnBoundaries) {
-  for (const Kind kind : kinds) {
+  for (const ContactKind kind : kinds) {
     const auto count = tests::trials(4000);
     const auto general = score_on(method("tccd"), kind, tests::Family::full_significands, 1, count);
     const auto near = score_on(method("tccd"), kind, tests::Family::near_contact, 1, count);
@@ -626,7 +628,7 @@ TEST(Published, TccdCallsWhateverFallsThroughAPlaneInTheMiddleThirdACollision) {
 TEST(Published, TccdMissesByUnderflowBesideAnInflection) {
   // The same collisions at every scale: exact scalings of queries that are found at scale 1.
   Random random(6);
-  for (const Kind kind : kinds) {
+  for (const ContactKind kind : kinds) {
     std::vector<PosedQuery> collisions(tests::trials(2000U));
     std::ranges::generate(collisions, [&] { return tests::random_hit(random, kind); });
     const auto missed_at = [&](int exponent) {
@@ -654,7 +656,7 @@ TEST(Published, TccdMissesContactsOfASimulationWhichScalingFinds) {
   const auto folder = tests::simulation_folder();
   if (folder.empty()) GTEST_SKIP() << "public data missing";
   const auto step = tests::load_simulation_step(folder, "armadillo-rollers");
-  const auto missed = [&](Kind kind, int exponent) {
+  const auto missed = [&](ContactKind kind, int exponent) {
     const tests::LabelledPairs& labelled = step.labelled(kind);
     int count = 0;
     for (std::size_t i = 0; i < labelled.pairs.size(); ++i) {
@@ -665,10 +667,10 @@ TEST(Published, TccdMissesContactsOfASimulationWhichScalingFinds) {
     }
     return count;
   };
-  EXPECT_EQ(missed(Kind::vertex_face, 0), 23);
-  EXPECT_EQ(missed(Kind::edge_edge, 0), 171);
-  EXPECT_EQ(missed(Kind::vertex_face, 4), 0);
-  EXPECT_EQ(missed(Kind::edge_edge, 4), 3);
+  EXPECT_EQ(missed(ContactKind::vertex_face, 0), 23);
+  EXPECT_EQ(missed(ContactKind::edge_edge, 0), 171);
+  EXPECT_EQ(missed(ContactKind::vertex_face, 4), 0);
+  EXPECT_EQ(missed(ContactKind::edge_edge, 4), 3);
 }
 
 // ---- Tight-Inclusion with other filters ---------------------------------------------------------
@@ -689,7 +691,7 @@ TEST(Published, TightInclusionAsReleasedDeniesAVertexThatLandsOnATriangle) {
 }
 
 /// The number of denied contacts.
-std::size_t denied_at(int level, bool two_decimals, Kind kind, std::string_view name) {
+std::size_t denied_at(int level, bool two_decimals, ContactKind kind, std::string_view name) {
   const generate::LevelFamily& family =
       generate::level_family(two_decimals ? "decimal-end-contact" : "end-contact");
   const data::QueryGroup contacts = generate::level_group(family, kind, level, 2021, 500);
@@ -701,7 +703,7 @@ std::size_t denied_at(int level, bool two_decimals, Kind kind, std::string_view 
 
 /// The range observed with the release itself: 5 to 12 per cent, at all scales but those near 1.
 TEST(Published, TightInclusionAsReleasedDeniesSomeContactsAtScalesFarFromOne) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const ContactKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     for (const bool two_decimals : {false, true}) {
       for (const int level : {1, 2, 3, 6, 7}) {
         const std::size_t denied = denied_at(level, two_decimals, kind, "tight_inclusion_released");
@@ -718,7 +720,7 @@ TEST(Published, TightInclusionAsReleasedDeniesSomeContactsAtScalesFarFromOne) {
 }
 
 TEST(Published, FilterOfTightInclusionIsAboveOurs) {
-  for (const Kind kind : kinds) {
+  for (const ContactKind kind : kinds) {
     for (const double d : {0.0, 1e-30}) {
       for (int exponent = -1074; exponent <= 300; ++exponent) {
         const std::array<double, 3> x_max{std::ldexp(1.0, exponent), std::ldexp(1.25, exponent),
@@ -739,7 +741,7 @@ TEST(Published, TightInclusionKeepsItsPromise) {
       options.separation = {.distance = distance, .norm = Norm::linf};
       int decided = 0;
       for (const generate::Family& family : generate::families()) {
-        for (const Kind kind : kinds) {
+        for (const ContactKind kind : kinds) {
           if (!generate::supports(family, kind)) continue;
           for (std::uint64_t index = 0; index < 8; ++index) {
             const Query query =

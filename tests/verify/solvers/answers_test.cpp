@@ -24,8 +24,8 @@ using data::test::TemporaryFolder;
 using fast::Answer;
 using fast::Verdict;
 
-constexpr auto vf = Kind::vertex_face;
-constexpr auto ee = Kind::edge_edge;
+constexpr auto vf = ContactKind::vertex_face;
+constexpr auto ee = ContactKind::edge_edge;
 /// The header without the last column, which files may omit.
 const std::string header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance\n";
 const std::string full_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure\n";

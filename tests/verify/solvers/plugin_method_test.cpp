@@ -42,16 +42,16 @@ Query query_for(Misbehaviour what) {
   return query;
 }
 
-Answer ask(const fast::Method& method, const Queries& one,
+Answer ask(const fast::Method& method, const AnyQueries& one,
            const fast::MethodOptions& options = {}) {
   Answer answer{.verdict = Verdict::no, .toi_lower = 7.0, .toi_upper = 7.0, .tolerance = 7.0};
   method.solve(one, {&answer, 1}, options);
   return answer;
 }
 
-Answer ask(const fast::Method& method, Kind kind, const Query& query,
+Answer ask(const fast::Method& method, AnyKind kind, const Query& query,
            const fast::MethodOptions& options = {}) {
-  return ask(method, Queries(kind, {&query, 1}), options);
+  return ask(method, AnyQueries(kind, {&query, 1}), options);
 }
 
 Answer ask(const fast::Method& method, const PosedQuery& posed,
@@ -93,7 +93,7 @@ TEST(PluginPromise, IncludesCurvesIfItHasAFunctionForThemAndTakesDoubles) {
     const fast::Terms& terms = method->info().terms;
     for (std::size_t degree = 0; degree <= greatest_degree; ++degree) {
       for (const bool is_rational : {false, true}) {
-        const QueryShape shape{Kind::edge_edge, degree, is_rational};
+        const AnyShape shape{ContactKind::edge_edge, degree, is_rational};
         EXPECT_EQ(terms.answers(shape), shape.is_straight() || (answers_curves && degree > 0))
             << name << ' ' << degree << ' ' << is_rational;
       }
@@ -139,9 +139,10 @@ TEST(LoadPlugin, IsOfTheFileThatWasThere) {
   const auto method = load_plugin(library);
   std::filesystem::copy_file(tests::plugin_library("always_yes"), folder.path() / "new.so");
   std::filesystem::rename(folder.path() / "new.so", library);
-  EXPECT_EQ(data::test::error_of(folder.path(),
-                                 [&] { static_cast<void>(ask(*method, Kind::edge_edge, {})); }),
-            "mine.so: has changed since it was loaded first");
+  EXPECT_EQ(
+      data::test::error_of(folder.path(),
+                           [&] { static_cast<void>(ask(*method, ContactKind::edge_edge, {})); }),
+      "mine.so: has changed since it was loaded first");
 }
 
 /// Each would end this process, or never return.
@@ -221,26 +222,27 @@ TEST(Plugin, GetsTheQueryAndItsKind) {
   Query query = query_for(Misbehaviour::repeats_query);
   query.coordinates[1] = 0.125;
   query.coordinates[23] = 0.75;
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+  for (const AnyKind kind : {ContactKind::vertex_face, ContactKind::edge_edge}) {
     const Answer answer = ask(*method, kind, query);
     EXPECT_EQ(answer.verdict, Verdict::yes);
     EXPECT_EQ(answer.toi_lower, 0.125);
     EXPECT_EQ(answer.toi_upper, 0.75);
-    EXPECT_EQ(answer.tolerance, kind == Kind::vertex_face ? 0.0 : 1.0);
+    EXPECT_EQ(answer.tolerance, kind == ContactKind::vertex_face ? 0.0 : 1.0);
   }
 }
 
 /// The plugin tells of curves by their shape and kind.
 TEST(Plugin, GetsCurvesByTheirOwnFunction) {
   const auto method = load_plugin(misbehaving);
-  for (const QueryShape& shape :
-       {QueryShape{Kind::vertex_face, 1, true}, {Kind::edge_edge, 2}, {Kind::edge_edge, 8, true}}) {
+  for (const AnyShape& shape : {AnyShape{ContactKind::vertex_face, 1, true},
+                                {ContactKind::edge_edge, 2},
+                                {ContactKind::edge_edge, 8, true}}) {
     std::vector<double> numbers(shape.numbers_of_query());
     numbers.front() = static_cast<double>(Misbehaviour::repeats_query);
     numbers.back() = 0.75;
-    const Answer answer = ask(*method, Queries(shape, numbers));
+    const Answer answer = ask(*method, AnyQueries(shape, numbers));
     EXPECT_EQ(answer.verdict, Verdict::yes);
-    EXPECT_EQ(answer.toi_lower, static_cast<double>(shape.kind) +
+    EXPECT_EQ(answer.toi_lower, static_cast<double>(shape.kind.number()) +
                                     10.0 * static_cast<double>(shape.degree) +
                                     (shape.is_rational ? 100.0 : 0.0));
     EXPECT_EQ(answer.toi_upper, 0.75);
@@ -260,16 +262,17 @@ TEST(Plugin, GetsTheOptions) {
   const auto method = load_plugin(misbehaving);
   for (const Norm norm : {Norm::linf, Norm::l2}) {
     const Separation separation{.distance = 0.25, .norm = norm};
-    EXPECT_EQ(ask(*method, Kind::vertex_face, query_for(Misbehaviour::repeats_norm),
+    EXPECT_EQ(ask(*method, ContactKind::vertex_face, query_for(Misbehaviour::repeats_norm),
                   {.separation = separation})
                   .toi_lower,
               norm == Norm::l2 ? 1.0 : 0.0);
   }
-  const Answer answer = ask(*method, Kind::vertex_face, query_for(Misbehaviour::repeats_options),
-                            {.tolerance = 0.0625,
-                             .max_checks = 77,
-                             .separation = {.distance = 0.25, .norm = Norm::linf},
-                             .t_max = 0.5});
+  const Answer answer =
+      ask(*method, ContactKind::vertex_face, query_for(Misbehaviour::repeats_options),
+          {.tolerance = 0.0625,
+           .max_checks = 77,
+           .separation = {.distance = 0.25, .norm = Norm::linf},
+           .t_max = 0.5});
   EXPECT_EQ(answer.verdict, Verdict::yes);
   EXPECT_EQ(answer.toi_lower, 0.0625);
   EXPECT_EQ(answer.toi_upper, 0.25);
@@ -279,7 +282,7 @@ TEST(Plugin, GetsTheOptions) {
 TEST(Plugin, MayBeOfTheVersionBeforeTheNorm) {
   const auto method = load_plugin(tests::plugin_library("old_version"));
   EXPECT_EQ(method->name(), "old_version");
-  const Answer answer = ask(*method, Kind::vertex_face, {},
+  const Answer answer = ask(*method, ContactKind::vertex_face, {},
                             {.separation = {.distance = 0.25, .norm = Norm::l2}, .t_max = 0.5});
   EXPECT_EQ(answer.toi_lower, 0.25);
   EXPECT_EQ(answer.toi_upper, 0.5);
@@ -352,7 +355,7 @@ struct Way {
 class PluginEvents : public ::testing::TestWithParam<Way> {
  protected:
   const bool in_batches = std::string_view(GetParam().library) == "misbehaving_batch";
-  const QueryShape shape{.degree = GetParam().degree};
+  const AnyShape shape{.degree = GetParam().degree};
 
   /// Queries whose first number selects what it does.
   [[nodiscard]] std::vector<double> numbers_of(const std::vector<Misbehaviour>& actions) const {
@@ -385,7 +388,7 @@ TEST_P(PluginEvents, CostOneQueryEachAndHaveTheirNames) {
     }
     const auto method = load_plugin(tests::plugin_library(GetParam().library));
     const std::vector<double> numbers = numbers_of(actions);
-    const Queries queries(shape, numbers);
+    const AnyQueries queries(shape, numbers);
     std::vector<Answer> answers(queries.size());
     // 2 GiB take longest under the sanitizers.
     constexpr double limit = tests::sanitizer_divisor > 1 ? 2.0 : 0.5;

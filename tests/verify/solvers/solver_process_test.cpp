@@ -65,8 +65,8 @@ Query scripted(Act act, std::size_t number) {
 }
 
 /// Another number for each shape.
-double shape_number(const QueryShape& shape) {
-  return static_cast<double>(shape.kind) + 10.0 * static_cast<double>(shape.degree) +
+double shape_number(const AnyShape& shape) {
+  return static_cast<double>(shape.kind.number()) + 10.0 * static_cast<double>(shape.degree) +
          (shape.is_rational ? 100.0 : 0.0);
 }
 
@@ -100,7 +100,7 @@ class ScriptedMethod final : public fast::Method {
     return info;
   }
 
-  void solve(const Queries& queries, std::span<Answer> answers,
+  void solve(const AnyQueries& queries, std::span<Answer> answers,
              const fast::MethodOptions& options) const override {
     if (queries.empty() && starts_.add() <= lost_starts_) std::raise(SIGKILL);
     for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -155,7 +155,7 @@ class SpanMethod final : public fast::Method {
     static const fast::MethodInfo info{.name = "spans"};
     return info;
   }
-  void solve(const Queries& queries, std::span<Answer> answers,
+  void solve(const AnyQueries& queries, std::span<Answer> answers,
              const fast::MethodOptions& options) const override {
     function_(queries.straight(), answers, options.tolerance);
   }
@@ -172,7 +172,7 @@ std::vector<Query> all_of(Act act, std::size_t count) {
 
 std::vector<Query> numbered(std::size_t count) { return all_of(Act::answer, count); }
 
-Queries lines(const std::vector<Query>& queries) { return {Kind::vertex_face, queries}; }
+AnyQueries lines(const std::vector<Query>& queries) { return {ContactKind::vertex_face, queries}; }
 
 using Places = std::vector<std::size_t>;
 
@@ -234,18 +234,18 @@ TEST(SolverProcess, AnswersQueriesOfAllShapes) {
   const ScriptedMethod method;
   SolverProcess process(method);
   constexpr std::size_t count = 9000, deadly = 4096;
-  for (const QueryShape shape : {QueryShape{Kind::edge_edge, greatest_degree, true},
-                                 {Kind::vertex_face, 2, false},
-                                 {Kind::edge_edge, 1, true},
-                                 {Kind::vertex_face, 3, false},
-                                 {Kind::vertex_face, 1, false}}) {
+  for (const AnyShape shape : {AnyShape{ContactKind::edge_edge, greatest_degree, true},
+                               {ContactKind::vertex_face, 2, false},
+                               {ContactKind::edge_edge, 1, true},
+                               {ContactKind::vertex_face, 3, false},
+                               {ContactKind::vertex_face, 1, false}}) {
     std::vector<double> numbers(count * shape.numbers_of_query());
     for (std::size_t i = 0; i < count; ++i) {
       numbers[i * shape.numbers_of_query() + 1] = static_cast<double>(i);
     }
     numbers[deadly * shape.numbers_of_query()] = static_cast<double>(Act::dies);
     Outcome outcome{.answers = std::vector<Answer>(count), .run = {}, .output = {}};
-    outcome.run = process.solve(Queries(shape, numbers), outcome.answers, {.t_max = 0.5});
+    outcome.run = process.solve(AnyQueries(shape, numbers), outcome.answers, {.t_max = 0.5});
     expect_failures(outcome, killed, {deadly});
     for (std::size_t i = 0; i < count; ++i) {
       if (i == deadly) continue;

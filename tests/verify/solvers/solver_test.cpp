@@ -38,12 +38,12 @@ struct Numbered {
   }
 
   [[nodiscard]] SolveRequest request() const {
-    return {.queries = {Kind::edge_edge, queries}, .source = source, .indices = indices};
+    return {.queries = {ContactKind::edge_edge, queries}, .source = source, .indices = indices};
   }
 };
 
 /// The answer yes, with the number as the time.
-Answer echo(Kind, const Query& query) {
+Answer echo(AnyKind, const Query& query) {
   return {.verdict = Verdict::yes, .toi_lower = query.coordinates[0]};
 }
 
@@ -68,7 +68,7 @@ TEST(Solver, TimeIsTheProcessorTimeOfTheMethod) {
 }
 
 TEST(Solver, AnExceptionCostsOneQuery) {
-  const FunctionMethod method([](Kind kind, const Query& query) {
+  const FunctionMethod method([](AnyKind kind, const Query& query) {
     if (query.coordinates[0] == 103.0) throw std::runtime_error("thrown by a solver");
     return echo(kind, query);
   });
@@ -83,7 +83,7 @@ TEST(Solver, AnExceptionCostsOneQuery) {
 
 // ---- In child processes -------------------------------------------------------------------------
 
-constexpr auto vf = Kind::vertex_face;
+constexpr auto vf = ContactKind::vertex_face;
 
 TEST(HangLimits, ShrinkAfterThreeHangsAndEndTheirSort) {
   HangLimits limits(10.0);
@@ -112,7 +112,7 @@ TEST(HangLimits, AskFewOfASortThatAlwaysHangs) {
 // ---- Shapes -------------------------------------------------------------------------------------
 
 /// Queries whose second number is 100 more than their place.
-Queries numbered(const QueryShape& shape, std::vector<double>& numbers) {
+AnyQueries numbered(const AnyShape& shape, std::vector<double>& numbers) {
   for (std::size_t i = 0; i < numbers.size(); i += shape.numbers_of_query()) {
     numbers[i + 1] = 100.0 + static_cast<double>(i / shape.numbers_of_query());
   }
@@ -122,9 +122,9 @@ Queries numbered(const QueryShape& shape, std::vector<double>& numbers) {
 TEST(Solver, RecordedAnswersAreLookedUpForAllShapesInDoubles) {
   const RecordedAnswers none;
   const std::uint64_t index = 0;
-  for (const QueryShape& shape : {QueryShape{vf, 3}, {vf, 1}, {vf, 2, true}, {vf, 8}}) {
+  for (const AnyShape& shape : {AnyShape{vf, 3}, {vf, 1}, {vf, 2, true}, {vf, 8}}) {
     const std::vector<double> numbers(shape.numbers_of_query());
-    const SolveRequest request{.queries = Queries(shape, numbers), .indices = {&index, 1}};
+    const SolveRequest request{.queries = AnyQueries(shape, numbers), .indices = {&index, 1}};
     for (const bool is_float : {false, true}) {
       const auto solver = recorded_solver("a.csv", none, {.float_coordinates = is_float});
       std::vector<Answer> answers(1);
@@ -139,7 +139,7 @@ TEST(Solver, RecordedAnswersAreLookedUpForAllShapesInDoubles) {
 /// another query, and so are curves of degree 3, which have as many numbers as rational ones of 2.
 TEST(Solver, ALostQueryIsThatOfItsShapeAndSeparation) {
   const FunctionMethod method(
-      [](const Queries& one) -> Answer {
+      [](const AnyQueries& one) -> Answer {
         if (one.is_rational && one.numbers[1] == 101.0) {
           std::cerr << "asked";
           std::raise(SIGKILL);
@@ -148,7 +148,7 @@ TEST(Solver, ALostQueryIsThatOfItsShapeAndSeparation) {
       },
       {.name = "lethal", .terms = {.most_degree = 3, .rational = true}});
   const auto solver = solver_in_children(method, {}, {});
-  constexpr QueryShape rational{.kind = vf, .degree = 2, .is_rational = true},
+  constexpr AnyShape rational{.kind = vf, .degree = 2, .is_rational = true},
       polynomial{.kind = vf, .degree = 3};
   std::vector<double> numbers(4 * rational.numbers_of_query());
   SolveRequest request{.queries = numbered(rational, numbers)};
@@ -164,7 +164,7 @@ TEST(Solver, ALostQueryIsThatOfItsShapeAndSeparation) {
       EXPECT_EQ(answers[i].verdict, i == 1 ? Verdict::error : Verdict::no) << i;
     }
     EXPECT_EQ(solver->take_output().text.empty(), is_known);
-    const SolveReply other = solver->solve({.queries = Queries(polynomial, numbers)}, answers);
+    const SolveReply other = solver->solve({.queries = AnyQueries(polynomial, numbers)}, answers);
     EXPECT_TRUE(other.failures.empty());
     EXPECT_EQ(answers[1].verdict, Verdict::no);
   }

@@ -35,7 +35,7 @@ using tests::PosedQuery;
 /// A vertex falls through a resting triangle at t = 1/3, above (u,v) = (1/4, 1/4).
 ViewedQuery falling() {
   const Query query = tests::over_triangle(1, 1, 1, -2).query;
-  return {.label = "a label", .query = base::AnyQuery(Kind::vertex_face, query)};
+  return {.label = "a label", .query = base::AnyQuery(ContactKind::vertex_face, query)};
 }
 
 TEST(QueryFacts, TextsArePrintable) {
@@ -53,7 +53,7 @@ TEST(NearestApproach, AgreesWithTheOracleOnBothSides) {
   tests::Random random(20261123);
   int asked = 0;
   for (int i = 0; i < 200; ++i) {
-    PosedQuery posed{i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge, {}};
+    PosedQuery posed{i % 2 == 0 ? ContactKind::vertex_face : ContactKind::edge_edge, {}};
     for (double& x : posed.query.coordinates) x = random.between(-1 << 20, 1 << 20) * 0x1p-20;
     const auto approach = nearest_approach(posed.kind, posed.query);
     const auto collides = [&](double d) {
@@ -127,7 +127,7 @@ class QueryFiles : public tests::FolderTest {
 TEST_F(QueryFiles, CurvesInJsonAreThoseOfAPage) {
   const std::vector<double> numbers{1, 1, 1,  1, 0, 0, 0.1, 1, 4, 0, 0, 0.5, 0, 4, 0, 1,
                                     1, 1, -1, 2, 0, 0, 0.1, 1, 4, 0, 0, 0.5, 0, 4, 0, 1};
-  const base::AnyQuery curves({Kind::edge_edge, 1, true}, numbers);
+  const base::AnyQuery curves({ContactKind::edge_edge, 1, true}, numbers);
   nlohmann::json facts = query_facts({.label = "of a page", .query = curves}, {});
   const auto read_again = [&] {
     write("curves.json", facts.dump());

@@ -106,7 +106,7 @@ class ViewBrowser : public tests::BrowserTest {
 PosedQuery falling(double end = -2.0) { return tests::over_triangle(1, 1, 1, end); }
 
 /// A query with coordinates of every exponent.
-PosedQuery of_any_size(Kind kind) {
+PosedQuery of_any_size(ContactKind kind) {
   tests::Random random(7);
   PosedQuery posed{kind, {}};
   for (double& x : posed.query.coordinates) x = random.finite_double();
@@ -116,7 +116,7 @@ PosedQuery of_any_size(Kind kind) {
 /// Rational curves with coordinates and weights of very different sizes.
 base::AnyQuery odd_curves() {
   tests::Random random(8);
-  const QueryShape shape{Kind::vertex_face, 3, true};
+  const QueryShape shape{ContactKind::vertex_face, 3, true};
   std::vector<double> numbers(shape.numbers_of_query());
   for (double& x : numbers) x = std::ldexp(random.uniform(-1.0, 1.0), random.between(-60, 60));
   for (std::size_t i = 3; i < numbers.size(); i += 4) numbers[i] = random.uniform(0x1p-20, 5.0);
@@ -151,8 +151,8 @@ std::vector<std::string> positions(const base::AnyQuery& query, const Rational& 
 /// Also where the browser has no WebGL, which the pictures need.
 TEST_F(ViewBrowser, TheSliderMovesThePointsExactly) {
   const std::vector<base::AnyQuery> motions{
-      {Kind::vertex_face, of_any_size(Kind::vertex_face).query},
-      {Kind::edge_edge, of_any_size(Kind::edge_edge).query},
+      {ContactKind::vertex_face, of_any_size(ContactKind::vertex_face).query},
+      {ContactKind::edge_edge, of_any_size(ContactKind::edge_edge).query},
       odd_curves()};
   std::vector<ViewedQuery> viewed;
   for (const base::AnyQuery& motion : motions) viewed.push_back({.query = motion});
@@ -215,7 +215,7 @@ TEST_F(ViewBrowser, ShowsContactTimeAndSolvers) {
   EXPECT_EQ(first.at("now"), "0.3333333333333333 (toi)");
   EXPECT_EQ(first.at("readout"), "Contact now; nearest at (u, v) = (0.25, 0.25).");
   EXPECT_EQ(first.at("names_there"), nlohmann::json::array({"v", "f0", "f1", "f2", "contact"}));
-  EXPECT_EQ(result.at(1), positions({Kind::vertex_face, falling().query}, Rational(1, 3)));
+  EXPECT_EQ(result.at(1), positions({ContactKind::vertex_face, falling().query}, Rational(1, 3)));
   const nlohmann::json& second = result.at(2);
   EXPECT_EQ(second.at("verdict"), "vertex-face: free.");
   EXPECT_EQ(second.at("subintervals"), nlohmann::json::array({"face +separated by face +"}));
@@ -226,7 +226,7 @@ TEST_F(ViewBrowser, ShowsContactTimeAndSolvers) {
 }
 
 TEST_F(ViewBrowser, FitsATelephoneWhereWhatIsCopiedIsTheSameQueryWhenPasted) {
-  const nlohmann::json result = result_of({falling(), of_any_size(Kind::edge_edge)}, R"(
+  const nlohmann::json result = result_of({falling(), of_any_size(ContactKind::edge_edge)}, R"(
     const copied = [];
     for (const index of [0, 1]) {
       for (const name of ["Cpp", "CSV", "JSON"]) {
@@ -300,7 +300,8 @@ TEST_F(ViewBrowser, DrawsWhatIsPastedWithoutAVerdict) {
 }
 
 TEST_F(ViewBrowser, DrawsEveryScale) {
-  std::vector<PosedQuery> posed{of_any_size(Kind::vertex_face), of_any_size(Kind::edge_edge)};
+  std::vector<PosedQuery> posed{of_any_size(ContactKind::vertex_face),
+                                of_any_size(ContactKind::edge_edge)};
   for (const double scale : {1e-300, 4e-324}) {
     posed.push_back(falling());
     for (double& x : posed.back().query.coordinates) x *= scale;
@@ -356,7 +357,7 @@ TEST_F(ViewBrowser, PrintsWhatIsShownWithoutTheControls) {
   const auto inclusion = solvers::solver_in_process(solvers::find_method("tight_inclusion"), {});
   ask(*inclusion);
   const nlohmann::json result =
-      result_of({falling(0x1p-52), of_any_size(Kind::edge_edge)}, std::string(on_paper) + R"(
+      result_of({falling(0x1p-52), of_any_size(ContactKind::edge_edge)}, std::string(on_paper) + R"(
     choose("format", "rational");
     const shown = ["h1", "#label", "#sentence", "#motion canvas", "#corners canvas", "#motion .names span", "#scale",
       "#now", "#rows .name", "#rows .said", "#rows .track", "#readout", "#points td", "footer"];

@@ -38,7 +38,7 @@
 /// Contact at t=0, at t=1 and on the boundary of the primitives counts. With a minimum separation,
 /// contact is a distance of at most that separation.
 ///
-/// A solver may also, or only, answer queries about the inversion of elements, if its promise says
+/// A solver may also, or only, answer queries about the inversion of cells, if its promise says
 /// so (TouchstonePluginPromise::elements): "yes" if the volume of a tetrahedron with these four
 /// points, or the area of a triangle in the plane, is 0 or negative at some t, the first of which
 /// is its time. There is no separation then.
@@ -62,15 +62,15 @@ extern "C" {
 #define TOUCHSTONE_API
 #endif
 
-/// The primitives of a query, with its points in their order, or of a pair of a mesh; or the
-/// element of a query about inversion.
+/// The two primitives of a query, with its points in their order, or of a pair of a mesh; or the
+/// kind of a cell. Points that a kind does not have have no effect.
 enum TouchstoneKind {
   TOUCHSTONE_VERTEX_FACE = 0,    ///< v, f0, f1, f2; of a mesh: a vertex and a face
   TOUCHSTONE_EDGE_EDGE = 1,      ///< ea0, ea1, eb0, eb1; of a mesh: the smaller number first
-  TOUCHSTONE_VERTEX_EDGE = 2,    ///< of a mesh only: a codimensional point and edge
-  TOUCHSTONE_VERTEX_VERTEX = 3,  ///< of a mesh only: codimensional points, the smaller number first
-  TOUCHSTONE_TETRAHEDRON = 4,    ///< an element a, b, c, d; det(b-a, c-a, d-a) > 0 upright
-  TOUCHSTONE_PLANE_TRIANGLE = 5  ///< an element: x and y of a, b, c; the rest has no effect
+  TOUCHSTONE_VERTEX_EDGE = 2,    ///< v, e0, e1; of a mesh: a codimensional point and edge
+  TOUCHSTONE_VERTEX_VERTEX = 3,  ///< v, w; of a mesh: codimensional points, the smaller first
+  TOUCHSTONE_TETRAHEDRON = 4,    ///< a cell a, b, c, d; det(b-a, c-a, d-a) > 0 upright
+  TOUCHSTONE_PLANE_TRIANGLE = 5  ///< a cell: x and y of a, b, c; the rest has no effect
 };
 
 /// Norm of the distance of two points.
@@ -138,7 +138,7 @@ typedef struct TouchstonePluginPromise {
                         ///< float before it is asked, and the truth is that of the rounded query; 0
   int32_t times;        ///< one of TouchstoneTimes; bounds
   double starts_apart;  ///< the distance at t=0 must be more than min_separation plus this, and the
-                        ///< volume of an element positive; negative: any start; -1
+                        ///< volume of a cell positive; negative: any start; -1
   double time_error;  ///< of estimates, in units of the step: an error up to this is no fault; 1e-6
   int32_t elements[2];  ///< 1 if it answers queries about tetrahedra, and about triangles in the
                         ///< plane; 0, 0. An addition: set it only if size is that of this struct.

@@ -30,8 +30,8 @@ inline Array3 get_numerical_error(const std::vector<Vector3>& vertices, const bo
     }
   }
   const std::array<double, 3> filter = touchstone::fast::error_filter(
-      is_vertex_face ? touchstone::Kind::vertex_face : touchstone::Kind::edge_edge, greatest,
-      using_minimum_separation ? (std::numeric_limits<double>::min)() : 0.0);
+      is_vertex_face ? touchstone::ContactKind::vertex_face : touchstone::ContactKind::edge_edge,
+      greatest, using_minimum_separation ? (std::numeric_limits<double>::min)() : 0.0);
   return Eigen::Array3d(filter[0], filter[1], filter[2]).cast<Scalar>();
 }
 

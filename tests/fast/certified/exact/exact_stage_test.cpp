@@ -28,7 +28,7 @@ namespace {
 
 using tests::PosedQuery;
 
-constexpr std::array<Kind, 2> kinds{Kind::vertex_face, Kind::edge_edge};
+constexpr std::array<ContactKind, 2> kinds{ContactKind::vertex_face, ContactKind::edge_edge};
 constexpr std::array<Norm, 2> norms{Norm::linf, Norm::l2};
 
 /// A query at a separation, and the oracle's answer.
@@ -51,7 +51,7 @@ std::vector<Asked> neighbouring_roots() {
                     -0.046875, 0.75,      0.0,  0.0078125, -0.75,    0.0,      0.0, 0.0}};
   std::vector<Asked> result;
   for (int nudge = 1; nudge <= 64; ++nudge) {
-    PosedQuery of_edges{Kind::edge_edge, edges}, of_face{Kind::vertex_face, face};
+    PosedQuery of_edges{ContactKind::edge_edge, edges}, of_face{ContactKind::vertex_face, face};
     of_edges.query.coordinates[23] -= nudge * 0x1p-48;
     of_face.query.coordinates[13] += nudge * 0x1p-48;
     result.push_back({of_edges});
@@ -158,7 +158,7 @@ TEST(ExactStage, RootsThatAreHardlyApartTakeFewSteps) {
 std::vector<Asked> of_families() {
   std::vector<Asked> result;
   for (const verify::generate::Family& family : verify::generate::families()) {
-    for (const Kind kind : kinds) {
+    for (const ContactKind kind : kinds) {
       if (!verify::generate::supports(family, kind)) continue;
       for (std::uint64_t i = 0; i < 50; ++i) {
         result.push_back({{kind, verify::generate::make_query(family, kind, 5, i).query}});

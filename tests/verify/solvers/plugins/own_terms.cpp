@@ -44,12 +44,11 @@ const char* touchstone_plugin_name() {
 void touchstone_plugin_solve(std::int32_t kind, const double* coordinates,
                              const TouchstonePluginOptions* options,
                              TouchstonePluginAnswer* answer) {
-  using touchstone::Kind;
   while (BEHAVIOUR == hanging) std::this_thread::sleep_for(std::chrono::seconds(1));
   if (BEHAVIOUR == slow) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   if (BEHAVIOUR == vertex_face && kind != TOUCHSTONE_VERTEX_FACE) return;
   const auto result = touchstone::fast::solve(
-      static_cast<Kind>(kind), query_of(coordinates),
+      static_cast<touchstone::ContactKind>(kind), query_of(coordinates),
       {.separation = {options->min_separation, static_cast<touchstone::Norm>(options->norm)}});
   answer->verdict = static_cast<std::int32_t>(result.verdict);
   answer->toi_lower = result.toi_lower;

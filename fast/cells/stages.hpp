@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Inversions of elements (docs/theory.md, section 10).
+/// The stages for cells (docs/theory.md, section 10).
 ///
 /// The volume of a tetrahedron a, b, c, d is that of the stage determinant: with r = a − b,
 /// p = c − b and q = d − b,
@@ -9,10 +9,10 @@
 ///     det = r·(p×q) = −6 V,
 ///
 /// so its Bernstein coefficients and error bounds are those of stages/determinant.hpp. A triangle
-/// in the plane is the tetrahedron with d = b + (0,0,1) (touchstone/element.hpp): q is exact.
+/// in the plane is the tetrahedron with d = b + (0,0,1) (touchstone/cell.hpp): q is exact.
 ///
 /// **Theorem.** On [0,1]:
-/// 1. If the first coefficient of det is certainly positive, the element is inverted at t=0.
+/// 1. If the first coefficient of det is certainly positive, the cell is inverted at t=0.
 /// 2. If all are certainly negative, V > 0 throughout.
 /// 3. If they certainly change sign once, from negative to positive, V has exactly one zero
 ///    (Descartes), and that is the first time.
@@ -32,12 +32,12 @@
 /// than the least doubles. In double-double f det(0) adds one β, and its product and the difference
 /// are wrong by 8 u² times at most 6 m and 12 m, again less than β. ∎
 ///
-/// An element that does not invert up to t_limit is left out as soon as a test of [0, t_limit]
+/// A cell that does not invert up to t_limit is left out as soon as a test of [0, t_limit]
 /// shows that; the others have the same result for any limit.
 ///
-/// An element with another first coefficient is left to the exact stage, as is one that is too
-/// large for the bounds or not finite. If the coefficients of det at both ends, products with each
-/// coordinate of r, p and q as a factor, are finite, so are these.
+/// A cell with another first coefficient is left to integers, as is one that is too large for the
+/// bounds or not finite. If the coefficients of det at both ends, products with each coordinate of
+/// r, p and q as a factor, are finite, so are these.
 
 #include <array>
 #include <cstddef>
@@ -53,7 +53,7 @@
 
 namespace touchstone::fast::kernel {
 
-// ---- Where elements come from -------------------------------------------------------------------
+// ---- Where cells come from ----------------------------------------------------------------------
 
 template <class Value>
 using Tetrahedra = std::array<Vector<Value>, query_points>;
@@ -62,7 +62,7 @@ using Tetrahedra = std::array<Vector<Value>, query_points>;
 /// constants. Lanes beyond `count` repeat the last.
 template <class Lanes>
 struct InOrder {
-  static Tetrahedra<typename Lanes::Value> load(const KernelInput& input,
+  static Tetrahedra<typename Lanes::Value> load(const CellInput& input,
                                                 const std::uint32_t* indices, std::size_t count) {
     const double* const first = input.queries[indices[0]].coordinates.data();
     const auto load_places = [&](const auto& place) {
@@ -85,10 +85,10 @@ struct InOrder {
 /// Tetrahedra of a mesh.
 template <class Lanes>
 struct FromTetrahedra {
-  static Points points(const KernelInput& input, std::size_t i) {
+  static Points points(const CellInput& input, std::size_t i) {
     Points result;
     for (std::size_t k = 0; k < moving_points; ++k) {
-      const auto number = static_cast<std::size_t>(input.tetrahedra[i][k]);
+      const auto number = static_cast<std::size_t>(input.corners[moving_points * i + k]);
       result[k] = input.vertices[number].start.data();
       result[moving_points + k] = input.vertices[number].end.data();
     }
@@ -111,7 +111,7 @@ inline void raise(Tetrahedra<Value>& points) {
 /// Triangles in the plane of a source.
 template <class Lanes, class Source>
 struct InPlane {
-  static Tetrahedra<typename Lanes::Value> load(const KernelInput& input,
+  static Tetrahedra<typename Lanes::Value> load(const CellInput& input,
                                                 const std::uint32_t* indices, std::size_t count) {
     auto points = kernel::load<Lanes, Source>(input, indices, count);
     raise(points);
@@ -119,19 +119,20 @@ struct InPlane {
   }
 };
 
-/// Faces of a mesh in the plane.
+/// Triangles of a mesh in the plane.
 template <class Lanes>
-struct FromFaces {
+struct FromTriangles {
   using Value = typename Lanes::Value;
 
-  static Tetrahedra<Value> load(const KernelInput& input, const std::uint32_t* indices,
+  static Tetrahedra<Value> load(const CellInput& input, const std::uint32_t* indices,
                                 std::size_t count) {
     Tetrahedra<Value> points;
     for (std::size_t k = 0; k < 3; ++k) {
       std::array<std::array<const double*, Lanes::width>, 2> rows;
       for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
-        const Face& face = input.faces[indices[lane < count ? lane : count - 1]];
-        const MovingVertex& vertex = input.vertices[static_cast<std::size_t>(face[k])];
+        const std::size_t cell = indices[lane < count ? lane : count - 1];
+        const MovingVertex& vertex =
+            input.vertices[static_cast<std::size_t>(input.corners[3 * cell + k])];
         rows[0][lane] = vertex.start.data();
         rows[1][lane] = vertex.end.data();
       }
@@ -167,7 +168,7 @@ struct ExamineVolume {
   /// \param bounds of_volume
   template <class Value>
   [[nodiscard]] static Found<Value> on(const Ends<Value>& at,
-                                       const Bounds<Value, Kind::vertex_face>& bounds) {
+                                       const Bounds<Value, ContactKind::vertex_face>& bounds) {
     return on(determinant_coefficients(at, Normals<Value>(at)), bounds.orientation_scale[0],
               bounds.determinant);
   }
@@ -178,19 +179,19 @@ static_assert(StageFormat<double>::determinant.rounding() >= 144 * 0x1p-53 &&
 /// The bound of det, and in the place of an orientation's the part of det at t=0 that is to be
 /// kept.
 template <class Value>
-inline Bounds<Value, Kind::vertex_face> of_volume(const Ends<Value>& unit, const Value& at_start,
-                                                  double kept) {
+inline Bounds<Value, ContactKind::vertex_face> of_volume(const Ends<Value>& unit,
+                                                         const Value& at_start, double kept) {
   const Value bound = determinant_bound<false>(unit, Value(0.0));
   return {bound * Value(kept > 0.0 ? kept_growth : 1.0), {at_start * Value(kept)}};
 }
 
 /// Examines [0,1].
-/// \param crossings The elements whose first time is the only zero of det.
+/// \param crossings The cells whose first time is the only zero of det.
 /// \param mixed Those with a positive volume at t=0 of which nothing else is proved.
 template <class Lanes, class Source>
-TOUCHSTONE_INLINE_CALLS inline void volume_stage(const KernelInput& input, const Indices& all,
+TOUCHSTONE_INLINE_CALLS inline void volume_stage(const CellInput& input, const Indices& all,
                                                  Crossings& crossings, Indices& mixed,
-                                                 KernelOutput& output) {
+                                                 CellOutput& output) {
   using Value = typename Lanes::Value;
   using Mask = MaskOf<Value>;
   Marks<Lanes> of_inverted(all.count), of_crossings(all.count), of_mixed(all.count),
@@ -202,8 +203,8 @@ TOUCHSTONE_INLINE_CALLS inline void volume_stage(const KernelInput& input, const
       static_cast<double>(static_cast<std::uint64_t>(input.t_limit * 0x1p40) + 1) * 0x1p-40;
   for (std::size_t first = 0; first < all.count; first += Lanes::width) {
     const std::size_t count = taken<Lanes>(first, all.count);
-    const Ends<Value> unit =
-        vectors_of<Kind::vertex_face>(load<Lanes, Source>(input, all.items.data() + first, count));
+    const Ends<Value> unit = vectors_of<ContactKind::vertex_face>(
+        load<Lanes, Source>(input, all.items.data() + first, count));
     const std::array<Value, 4> whole = determinant_coefficients(unit, Normals<Value>(unit));
     const auto bounds = of_volume(unit, whole[0], input.kept_volume);
     const Value& bound = bounds.determinant;
@@ -227,7 +228,7 @@ TOUCHSTONE_INLINE_CALLS inline void volume_stage(const KernelInput& input, const
     of_mixed.add(first, positive & ~free & ~crossing);
     of_rest.add(first, valid & ~positive & ~inverted);
   }
-  append_marked(output.one_sided, all, of_inverted);
+  append_marked(output.inverted, all, of_inverted);
   append_marked(output.undecided, all, of_rest);
   append_marked(mixed, all, of_mixed);
   of_crossings.for_each([&](std::size_t place) {
@@ -235,13 +236,12 @@ TOUCHSTONE_INLINE_CALLS inline void volume_stage(const KernelInput& input, const
   });
 }
 
-/// \tparam First the source for the first stage: of one element, of elements in order, or Source
+/// \tparam First the source for the first stage: of one cell, of cells in order, or Source
 template <class Lanes, class Source, class First = Source>
-void invert_from(const KernelInput& input, KernelOutput& output) {
-  constexpr Kind kind = Kind::vertex_face;
-  output.separated_in_direction.count = output.one_sided.count = 0;
-  output.rejected.count = output.impacts.count = output.undecided.count = 0;
-  Indices all, mixed;
+void invert_from(const CellInput& input, CellOutput& output) {
+  constexpr ContactKind kind = ContactKind::vertex_face;
+  output.inverted.count = output.inversions.count = output.undecided.count = 0;
+  Indices all, mixed, free;
   for (; all.count < input.count; ++all.count) {
     all.items[all.count] = static_cast<std::uint32_t>(all.count);
   }
@@ -253,18 +253,18 @@ void invert_from(const KernelInput& input, KernelOutput& output) {
     const auto at_start = filters::dot(unit[r][0], filters::cross(unit[p][0], unit[q][0]));
     return of_volume(unit, at_start, input.kept_volume);
   });
-  Bisection<Lanes, kind, ExamineVolume>(input, moving, crossings, output.rejected, output.undecided)
+  Bisection<Lanes, kind, ExamineVolume>(input.t_limit, moving, crossings, free, output.undecided)
       .run();
   Refinement<Lanes, false, kind, Source>::run(input, crossings, output.undecided, output);
 }
 
 template <class Lanes>
-void invert(const KernelInput& input, KernelOutput& output) {
-  if (input.queries == nullptr && input.kind == Kind::tetrahedron) {
+void invert(const CellInput& input, CellOutput& output) {
+  if (input.queries == nullptr && input.kind == CellKind::tetrahedron) {
     invert_from<Lanes, FromTetrahedra<Lanes>>(input, output);
   } else if (input.queries == nullptr) {
-    invert_from<Lanes, FromFaces<Lanes>>(input, output);
-  } else if (input.kind == Kind::plane_triangle) {
+    invert_from<Lanes, FromTriangles<Lanes>>(input, output);
+  } else if (input.kind == CellKind::plane_triangle) {
     invert_from<Lanes, InPlane<Lanes, FromArray<Lanes>>, InPlane<Lanes, InOrder<Lanes>>>(input,
                                                                                          output);
   } else if (input.count == 1) {

@@ -1,8 +1,8 @@
 /// \file
-/// Families of elements whose volume is a product with known roots, or a polynomial with
+/// Families of cells whose volume is a product with known roots, or a polynomial with
 /// coefficients of known signs.
 ///
-/// *Triangular elements.* With shared coordinates c − a = (0,β,·) and d − a = (0,0,γ), b − a being
+/// *Triangular cells.* With shared coordinates c − a = (0,β,·) and d − a = (0,0,γ), b − a being
 /// (α,·,·), six times the volume is αβγ (twice the area αβ). α, β, γ are differences of two lines,
 /// so their roots and signs are exact rationals of the doubles; the first time is 0 if the product
 /// is not positive at t=0, and else the least root.
@@ -10,7 +10,7 @@
 /// *Mirrored axes.* If on m axes all points move from x to −k x, those coordinates are (1 − (1+k)t)
 /// times their start, so the volume is (1 − (1+k)t)^m W(t), W being the volume with these axes at
 /// rest. Where all Bernstein coefficients of W are positive, it is positive on [0,1], and the
-/// element is flat at 1/(1+k) and not before.
+/// cell is flat at 1/(1+k) and not before.
 ///
 /// *Grazing.* With α and β mirrored (k=1), b − a = (α,q) and c − a = (p,β), twice the area is
 /// α(0)β(0)(1−2t)² − pq. Differences q > 0 and p of roundings keep their signs, since they are
@@ -33,7 +33,7 @@ using exact::Rational;
 namespace {
 
 /// The axes that count.
-std::size_t axes_of(const Recipe& recipe) { return recipe.kind == Kind::tetrahedron ? 3 : 2; }
+std::size_t axes_of(const Recipe& recipe) { return recipe.kind == CellKind::tetrahedron ? 3 : 2; }
 
 /// All points anywhere.
 Query draw_points(Sampler& sampler) {
@@ -46,7 +46,7 @@ Query draw_points(Sampler& sampler) {
   return query;
 }
 
-// ---- Triangular elements ------------------------------------------------------------------------
+// ---- Triangular cells ------------------------------------------------------------------------
 
 /// A factor of the volume that stays positive, or crosses 0.
 std::array<Line, 2> draw_factor(std::size_t axis, bool crosses, Sampler& sampler) {
@@ -61,8 +61,8 @@ void set_factor(const std::array<Line, 2>& lines, std::size_t axis, Query& query
   set(query, axis + 1, axis, lines[1]);
 }
 
-/// A triangular element of which the listed factors cross 0.
-Query triangular_element(const std::array<bool, 3>& crosses, Sampler& sampler) {
+/// A triangular cell of which the listed factors cross 0.
+Query triangular_cell(const std::array<bool, 3>& crosses, Sampler& sampler) {
   Query query = draw_points(sampler);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     set_factor(draw_factor(axis, crosses.at(axis), sampler), axis, query);
@@ -70,7 +70,7 @@ Query triangular_element(const std::array<bool, 3>& crosses, Sampler& sampler) {
   return query;
 }
 
-KnownQuery element_outcome(const Recipe& recipe, const Query& query) {
+KnownQuery cell_outcome(const Recipe& recipe, const Query& query) {
   int start = 1;
   std::optional<Rational> first;
   for (std::size_t axis = 0; axis < axes_of(recipe); ++axis) {
@@ -83,46 +83,46 @@ KnownQuery element_outcome(const Recipe& recipe, const Query& query) {
   return first ? collision(query, first) : no_collision(query);
 }
 
-/// Any factors cross 0; some elements begin inverted, by a negative factor.
+/// Any factors cross 0; some cells begin inverted, by a negative factor.
 KnownQuery factors(Recipe& recipe) {
   Sampler sampler(recipe);
   const auto coin = [&] { return sampler.random().coin(); };
-  Query query = triangular_element({coin(), coin(), coin()}, sampler);
+  Query query = triangular_cell({coin(), coin(), coin()}, sampler);
   if (recipe.variant % 8 == 7)
     set(query, 1, 0, sampler.from_to(0, lower_zone, coin() ? lower_zone : upper_zone));
-  return element_outcome(recipe, query);
+  return cell_outcome(recipe, query);
 }
 
 /// One factor is 0 at t=0 or t=1, or a rounding above or below.
 KnownQuery flat_at_end(Recipe& recipe) {
   Sampler sampler(recipe);
-  Query query = triangular_element({}, sampler);
+  Query query = triangular_cell({}, sampler);
   const auto axis =
       static_cast<std::size_t>(sampler.random().between(0, static_cast<int>(axes_of(recipe)) - 1));
   const std::size_t end = sampler.random().coin() ? 1 : 0;
   query.at(end, axis + 1, axis) =
       sampler.nudged(query.at(end, 0, axis), static_cast<int>(recipe.variant % 3) - 1);
-  return element_outcome(recipe, query);
+  return cell_outcome(recipe, query);
 }
 
 /// Two factors, or all, are the same times a power of two.
 KnownQuery multiple_root(Recipe& recipe) {
   Sampler sampler(recipe);
-  Query query = triangular_element({}, sampler);
+  Query query = triangular_cell({}, sampler);
   const std::array<Line, 2> lines = draw_factor(0, true, sampler);
   const std::size_t count = recipe.variant % 4 == 3 ? axes_of(recipe) : 2;
   for (std::size_t axis = 0; axis < count; ++axis) {
     const auto exponent = static_cast<int>(sampler.random().between(-6, 6));
     set_factor({scaled(lines[0], exponent), scaled(lines[1], exponent)}, axis, query);
   }
-  return element_outcome(recipe, query);
+  return cell_outcome(recipe, query);
 }
 
-/// Far from the origin, so that coordinates have few bits left for the element.
+/// Far from the origin, so that coordinates have few bits left for the cell.
 KnownQuery translated(Recipe& recipe) {
   Sampler sampler(recipe);
   const auto coin = [&] { return sampler.random().coin(); };
-  Query query = triangular_element({coin(), false, coin()}, sampler);
+  Query query = triangular_cell({coin(), false, coin()}, sampler);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double greatest = 0.0;
     for (std::size_t i = axis; i < query.coordinates.size(); i += 3) {
@@ -131,7 +131,7 @@ KnownQuery translated(Recipe& recipe) {
     const double far = std::ldexp(greatest, static_cast<int>(sampler.random().between(4, 44)));
     for (std::size_t i = axis; i < query.coordinates.size(); i += 3) query.coordinates.at(i) += far;
   }
-  return element_outcome(recipe, query);
+  return cell_outcome(recipe, query);
 }
 
 // ---- Volumes ------------------------------------------------------------------------------------
@@ -193,7 +193,7 @@ KnownQuery flat_at_known_time(Recipe& recipe) {
 
 KnownQuery grazing_volume(Recipe& recipe) {
   Sampler sampler(recipe);
-  Query query = triangular_element({}, sampler);
+  Query query = triangular_cell({}, sampler);
   const int side = static_cast<int>(recipe.variant % 3) - 1;
   const std::array<std::size_t, 2> others{2, 1};
   for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -211,7 +211,7 @@ KnownQuery grazing_volume(Recipe& recipe) {
   return side < 0 ? no_collision(query) : collision(query, std::nullopt);
 }
 
-KnownQuery random_elements(Recipe& recipe) {
+KnownQuery random_cells(Recipe& recipe) {
   Sampler sampler(recipe);
   for (;;) {
     const Query query = draw_points(sampler);
@@ -227,7 +227,7 @@ KnownQuery random_elements(Recipe& recipe) {
 /// products of coordinates overflow or underflow.
 KnownQuery all_scales(Recipe& recipe) {
   static constexpr std::array bases{factors,     multiple_root,  flat_at_known_time,
-                                    flat_at_end, grazing_volume, random_elements};
+                                    flat_at_end, grazing_volume, random_cells};
   const std::size_t variant = recipe.variant;
   Recipe inner = recipe;
   inner.random = Random(recipe.random.bits());
@@ -240,56 +240,56 @@ KnownQuery all_scales(Recipe& recipe) {
   return known;
 }
 
-constexpr Definition of_elements(const Family& family, KnownQuery (*build)(Recipe&)) {
+constexpr Definition of_cells(const Family& family, KnownQuery (*build)(Recipe&)) {
   return {family, build, false, false, true};
 }
 
-constexpr std::array element_list{
-    of_elements({"volume-factors",
-                 "Shared coordinates make the volume a product of differences of known lines: the "
-                 "first root, or a start that is not positive, follows from exact rationals.",
-                 Verdicts::both},
-                factors),
-    of_elements({"flat-at-end",
-                 "As volume-factors, with one factor 0 at t=0 or t=1 by equal coordinates, or off "
-                 "by one rounding.",
-                 Verdicts::both},
-                flat_at_end),
-    of_elements({"multiple-root",
-                 "As volume-factors, with two or all factors the same times powers of two: the "
-                 "volume touches 0 or has a triple root.",
-                 Verdicts::collisions},
-                multiple_root),
-    of_elements({"translated-volume",
-                 "As volume-factors, up to 2^44 of its size away from the origin; the lines are "
-                 "those of the rounded coordinates.",
-                 Verdicts::both},
-                translated),
-    of_elements({"flat-at-known-time",
-                 "On one, two or all axes each coordinate ends at minus a power of two k times its "
-                 "start, so the element is flat at 1/(1+k); the other factor of the volume has "
-                 "positive Bernstein coefficients.",
-                 Verdicts::collisions},
-                flat_at_known_time),
-    of_elements({"grazing-volume",
-                 "Twice the area is c (1-2t)^2 - p q with c > 0; p and q are differences of a few "
-                 "roundings, whose signs decide, or q = 0.",
-                 Verdicts::both},
-                grazing_volume),
-    of_elements({"random-elements",
-                 "Random points with a volume of positive Bernstein coefficients, in rationals, or "
-                 "positive at t=0 and negative at t=1.",
-                 Verdicts::both},
-                random_elements),
-    of_elements({"volume-scales",
-                 "Such an element with each axis times a power of two between 2^-480 and 2^480, "
-                 "which keeps the sign of the volume.",
-                 Verdicts::both},
-                all_scales),
+constexpr std::array cell_list{
+    of_cells({"volume-factors",
+              "Shared coordinates make the volume a product of differences of known lines: the "
+              "first root, or a start that is not positive, follows from exact rationals.",
+              Verdicts::both},
+             factors),
+    of_cells({"flat-at-end",
+              "As volume-factors, with one factor 0 at t=0 or t=1 by equal coordinates, or off "
+              "by one rounding.",
+              Verdicts::both},
+             flat_at_end),
+    of_cells({"multiple-root",
+              "As volume-factors, with two or all factors the same times powers of two: the "
+              "volume touches 0 or has a triple root.",
+              Verdicts::collisions},
+             multiple_root),
+    of_cells({"translated-volume",
+              "As volume-factors, up to 2^44 of its size away from the origin; the lines are "
+              "those of the rounded coordinates.",
+              Verdicts::both},
+             translated),
+    of_cells({"flat-at-known-time",
+              "On one, two or all axes each coordinate ends at minus a power of two k times its "
+              "start, so the cell is flat at 1/(1+k); the other factor of the volume has "
+              "positive Bernstein coefficients.",
+              Verdicts::collisions},
+             flat_at_known_time),
+    of_cells({"grazing-volume",
+              "Twice the area is c (1-2t)^2 - p q with c > 0; p and q are differences of a few "
+              "roundings, whose signs decide, or q = 0.",
+              Verdicts::both},
+             grazing_volume),
+    of_cells({"random-elements",
+              "Random points with a volume of positive Bernstein coefficients, in rationals, or "
+              "positive at t=0 and negative at t=1.",
+              Verdicts::both},
+             random_cells),
+    of_cells({"volume-scales",
+              "Such a cell with each axis times a power of two between 2^-480 and 2^480, "
+              "which keeps the sign of the volume.",
+              Verdicts::both},
+             all_scales),
 };
 
 }  // namespace
 
-std::span<const Definition> element_definitions() { return element_list; }
+std::span<const Definition> cell_definitions() { return cell_list; }
 
 }  // namespace touchstone::verify::generate

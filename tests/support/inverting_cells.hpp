@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Moving elements whose inversion is known by construction.
+/// Moving cells whose inversion is known by construction.
 ///
 /// The edges from a are the rows of a triangular matrix whose diagonal is f1, f2, f3, each linear
 /// in time between integers, and whose other numbers below it move anyhow. So 6 V = f1 f2 f3: the
@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "fast/certified/block.hpp"
+#include "fast/cells/decision.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/kernels.hpp"
 #include "fast/platform/floating_point_state.hpp"
@@ -27,14 +27,14 @@
 #include "tests/support/random.hpp"
 #include "tests/support/root_count.hpp"
 #include "touchstone/algebraic_number.hpp"
-#include "touchstone/certified.hpp"
-#include "touchstone/element.hpp"
+#include "touchstone/cell.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/oracle.hpp"
 #include "touchstone/query.hpp"
 
 namespace touchstone::tests {
 
-/// An element with its truth.
+/// A cell with its truth.
 struct KnownInversion {
   Query tetrahedron{};
   int start = 0;  ///< sign of the volume
@@ -43,7 +43,7 @@ struct KnownInversion {
   int denominator = 1;
 };
 
-namespace inverting_elements {
+namespace inverting_cells {
 
 /// A number that moves from the first value to the second.
 using Moving = std::array<int, 2>;
@@ -89,14 +89,14 @@ inline void set_truth(KnownInversion& known, std::span<const Moving> factors) {
   return result;
 }
 
-}  // namespace inverting_elements
+}  // namespace inverting_cells
 
 /// A tetrahedron of any size, from subnormal to nearly the greatest, and of any place.
 [[nodiscard]] inline KnownInversion product_of_factors(Random& random) {
-  using inverting_elements::Moving;
-  const std::array<Moving, 3> f = inverting_elements::factors(random);
+  using inverting_cells::Moving;
+  const std::array<Moving, 3> f = inverting_cells::factors(random);
   KnownInversion known;
-  inverting_elements::set_truth(known, f);
+  inverting_cells::set_truth(known, f);
   const int most = random.coin() ? 2 : 1000;
   // Their products with the shear and the translation stay below 2^53.
   const auto shear = static_cast<double>(random.between(-4, 4));
@@ -106,7 +106,7 @@ inline void set_truth(KnownInversion& known, std::span<const Moving> factors) {
   const int all = random.coin() ? 0 : random.between(-1074, 970);
   for (int& x : exponent) x = random.between(0, 3) == 0 ? random.between(-1074, 970) : all;
   std::array<Moving, 3> below;
-  for (Moving& x : below) x = inverting_elements::moving(random, most);
+  for (Moving& x : below) x = inverting_cells::moving(random, most);
   for (std::size_t end = 0; end < 2; ++end) {
     const auto at = [&](const Moving& x) { return static_cast<double>(x.at(end)); };
     std::array<std::array<double, 3>, 4> points{{{},
@@ -131,11 +131,11 @@ inline void set_truth(KnownInversion& known, std::span<const Moving> factors) {
 
 /// The same of a triangle in the plane, with two factors.
 [[nodiscard]] inline KnownInversion triangle_of_factors(Random& random) {
-  using inverting_elements::Moving;
-  const std::array<Moving, 3> f = inverting_elements::factors(random);
+  using inverting_cells::Moving;
+  const std::array<Moving, 3> f = inverting_cells::factors(random);
   KnownInversion known;
-  inverting_elements::set_truth(known, std::span(f).first<2>());
-  const Moving below = inverting_elements::moving(random, 1000);
+  inverting_cells::set_truth(known, std::span(f).first<2>());
+  const Moving below = inverting_cells::moving(random, 1000);
   const auto shear = static_cast<double>(random.between(-4, 4));
   const double place = random.coin() ? 0.0 : std::ldexp(1.0, random.between(0, 44));
   const int all = random.coin() ? 0 : random.between(-1074, 970);
@@ -152,7 +152,7 @@ inline void set_truth(KnownInversion& known, std::span<const Moving> factors) {
       }
     }
   }
-  known.tetrahedron = to_tetrahedron(Kind::plane_triangle, known.tetrahedron);
+  known.tetrahedron = to_tetrahedron(CellKind::plane_triangle, known.tetrahedron);
   return known;
 }
 
@@ -202,7 +202,8 @@ struct InversionTruth {
   const Polynomial volume = root_count::dot(
       root_count::minus(b, a), root_count::cross(root_count::minus(c, a), root_count::minus(d, a)));
   const Integer at_start = volume[0];
-  if (kept == 0.0) return {sgn(at_start), exact::decide(Kind::tetrahedron, tetrahedron).toi};
+  if (kept == 0.0)
+    return {sgn(at_start), exact::first_inversion(CellKind::tetrahedron, tetrahedron)};
   const Rational part(kept);
   const Polynomial left =
       Polynomial(part.get_den()) * volume - Polynomial(Integer(part.get_num() * at_start));
@@ -215,32 +216,32 @@ struct InversionTruth {
   return result;
 }
 
-/// The results of elements of which this part of the volume is to be kept.
-/// \param decide fast::decide_elements, or one with a fault
-template <class Decide = decltype(fast::decide_elements)>
-[[nodiscard]] std::vector<fast::CertifiedResult> inversions_keeping(
-    std::span<const Query> tetrahedra, double kept, const fast::CertifiedOptions& options = {},
-    Decide& decide = fast::decide_elements) {
+/// The results of tetrahedra of which this part of the volume is to be kept.
+/// \param decide fast::decide_cells, or one with a fault
+template <class Decide = decltype(fast::decide_cells)>
+[[nodiscard]] std::vector<fast::Inversion> inversions_keeping(
+    std::span<const Query> tetrahedra, double kept, const fast::InversionOptions& options = {},
+    Decide& decide = fast::decide_cells) {
   const fast::StrictFloatingPoint strict;
-  std::vector<fast::CertifiedResult> results(tetrahedra.size(), fast::free_of_inversion);
+  std::vector<fast::Inversion> results(tetrahedra.size(), fast::no_inversion);
   for (std::size_t first = 0; first < tetrahedra.size(); first += fast::kernel_block) {
     const std::size_t count = std::min(fast::kernel_block, tetrahedra.size() - first);
     decide(
-        {.kind = Kind::tetrahedron,
+        {.kind = CellKind::tetrahedron,
          .count = count,
          .queries = &tetrahedra[first],
          .kept_volume = kept},
         options.t_max, options, fast::certified_kernel(options.kernels),
         [&](std::size_t i) { return tetrahedra[first + i]; },
-        [&](std::size_t i, const fast::CertifiedResult& found) { results[first + i] = found; });
+        [&](std::size_t i, const fast::Inversion& found) { results[first + i] = found; });
   }
   return results;
 }
 
 /// The fault of an answer, or nothing.
 [[nodiscard]] inline std::optional<std::string> inversion_fault(
-    const InversionTruth& truth, const fast::CertifiedResult& result,
-    const fast::CertifiedOptions& options = {}) {
+    const InversionTruth& truth, const fast::Inversion& result,
+    const fast::InversionOptions& options = {}) {
   bool inverts = truth.inverts();
   if (inverts && options.t_max < 1.0) inverts = compare(*truth.time, options.t_max) <= 0;
   if (result.start != truth.start) return "the start is another";
@@ -253,8 +254,8 @@ template <class Decide = decltype(fast::decide_elements)>
 
 /// One of all sorts, the first half of them degenerate: exactly so, or up to one spacing of
 /// doubles.
-inline constexpr int sorts_of_elements = 8;
-[[nodiscard]] inline Query element_of_sort(Random& random, int sort) {
+inline constexpr int sorts_of_cells = 8;
+[[nodiscard]] inline Query cell_of_sort(Random& random, int sort) {
   Query query{};
   switch (sort) {
     case 0:
@@ -268,7 +269,7 @@ inline constexpr int sorts_of_elements = 8;
     }
     case 3:
       // The last point is in the plane of the others at a time, up to rounding.
-      query = near_contact_query(random, Kind::vertex_face);
+      query = near_contact_query(random, ContactKind::vertex_face);
       if (random.coin())
         std::swap_ranges(query.coordinates.begin(), query.coordinates.begin() + 3,
                          query.coordinates.begin() + 3);
