@@ -77,7 +77,8 @@ template <class Item>
 /// True if that coordinate of a point, or its weight (axis 3), has an effect.
 [[nodiscard]] inline bool has_effect(AnyKind kind, std::size_t point, std::size_t axis) {
   if (!kind.is_cell()) return decided_point(kind.contact(), point) == point;
-  return kind.cell() == CellKind::tetrahedron || (point < 3 && axis != 2);
+  const CellRecord& cell = record_of(kind.cell());
+  return point < cell.point_count && (axis < cell.dimension || axis == 3);
 }
 
 /// \throws std::domain_error naming query i and the first of its numbers with an effect that is not

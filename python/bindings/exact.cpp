@@ -193,14 +193,13 @@ py::tuple scene_proof(const std::string& label, int threads, std::atomic<bool>& 
 
 py::tuple prove_step(const Doubles& before, const Doubles& after, const Integers& faces,
                      const Integers& edges, const Integers& points, const Integers& groups,
-                     const Integers& apart, const Integers& tetrahedra,
-                     const Integers& plane_triangles, const Doubles& radii,
+                     const Integers& apart, const CellLists& cells, const Doubles& radii,
                      const Integers& separated, const Doubles& separations, double separation,
                      const std::string& norm, double t_max, int threads, const std::string& label,
                      const py::object& progress) {
   std::atomic<bool> stop = false;
   fast::Motion vertices = motion_of(before, after);
-  fast::Mesh mesh = mesh_from(faces, edges, points, tetrahedra, plane_triangles);
+  fast::Mesh mesh = mesh_from(faces, edges, points, cells);
   const fast::StepOptions of_step{
       .solve = {.t_max = t_max,
                 .separation = separation_from(separation, norm),
@@ -353,10 +352,10 @@ PYBIND11_MODULE(_exact, m) {
         arg("claim"), arg("threads"), arg("progress"));
   m.def("prove_step", prove_step, arg("before").noconvert(), arg("after").noconvert(),
         arg("faces").noconvert(), arg("edges").noconvert(), arg("points").noconvert(),
-        arg("groups").noconvert(), arg("apart").noconvert(), arg("tetrahedra").noconvert(),
-        arg("plane_triangles").noconvert(), arg("radii").noconvert(), arg("separated").noconvert(),
-        arg("separations").noconvert(), arg("separation"), arg("norm"), arg("t_max"),
-        arg("threads"), arg("label"), arg("progress"));
+        arg("groups").noconvert(), arg("apart").noconvert(), arg("cells").noconvert(),
+        arg("radii").noconvert(), arg("separated").noconvert(), arg("separations").noconvert(),
+        arg("separation"), arg("norm"), arg("t_max"), arg("threads"), arg("label"),
+        arg("progress"));
   m.def("prove_mesh", prove_mesh, arg("vertices").noconvert(), arg("faces").noconvert(),
         arg("edges").noconvert(), arg("points").noconvert(), arg("groups").noconvert(),
         arg("apart").noconvert(), arg("weld"), arg("threads"), arg("label"), arg("progress"));

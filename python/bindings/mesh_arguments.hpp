@@ -60,13 +60,16 @@ template <class Row>
           .points = rows_of<std::int32_t>(points)};
 }
 
+/// Cells of each CellKind, in its order.
+using CellLists = std::array<Integers, cell_kinds.size()>;
+
 /// The same, with cells.
 [[nodiscard]] inline fast::Mesh mesh_from(const Integers& faces, const Integers& edges,
-                                          const Integers& points, const Integers& tetrahedra,
-                                          const Integers& plane_triangles) {
+                                          const Integers& points, const CellLists& cells) {
   fast::Mesh mesh = mesh_from(faces, edges, points);
-  mesh.tetrahedra = rows_of<fast::Tetrahedron>(tetrahedra);
-  mesh.plane_triangles = rows_of<fast::Face>(plane_triangles);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    mesh.add_cells(cell_kinds[i], {cells[i].data(), std::size_t(cells[i].size())});
+  }
   return mesh;
 }
 

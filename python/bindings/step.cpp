@@ -183,12 +183,12 @@ class StoppableStep {
  public:
   StoppableStep(const Doubles& before, const Doubles& after, const Integers& faces,
                 const Integers& edges, const Integers& points, const Integers& groups,
-                const Integers& apart, const Integers& tetrahedra, const Integers& plane_triangles,
-                const Doubles& radii, const Integers& separated, const Doubles& separations,
+                const Integers& apart, const CellLists& cells, const Doubles& radii,
+                const Integers& separated, const Doubles& separations,
                 const py::object& can_collide, double separation, const std::string& norm,
                 double toi_tolerance, double t_max, int threads)
       : stop_(std::make_shared<std::atomic<bool>>(false)) {
-    fast::Mesh mesh = mesh_from(faces, edges, points, tetrahedra, plane_triangles);
+    fast::Mesh mesh = mesh_from(faces, edges, points, cells);
     fast::Motion vertices = motion_of(before, after);
     const fast::StepOptions options{
         .solve = {.toi_tolerance = toi_tolerance,
@@ -359,8 +359,7 @@ void define_step(py::module_& m) {
                     const py::object&, double, const std::string&, double, double, int>(),
            arg("before").noconvert(), arg("after").noconvert(), arg("faces").noconvert(),
            arg("edges").noconvert(), arg("points").noconvert(), arg("groups").noconvert(),
-           arg("apart").noconvert(), arg("tetrahedra").noconvert(),
-           arg("plane_triangles").noconvert(), arg("radii").noconvert(),
+           arg("apart").noconvert(), arg("cells").noconvert(), arg("radii").noconvert(),
            arg("separated").noconvert(), arg("separations").noconvert(), arg("can_collide"),
            arg("separation"), arg("norm"), arg("toi_tolerance"), arg("t_max"), arg("threads"))
       .def("moved", &StoppableStep::moved, arg("before").noconvert(), arg("after").noconvert(),

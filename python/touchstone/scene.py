@@ -288,8 +288,7 @@ class Step:
             as_indices(points, "points", None),
             as_indices(groups, "groups", None),
             as_indices(apart, "apart", 2),
-            as_indices(tetrahedra, "tetrahedra", 4),
-            as_indices(plane_triangles, "plane_triangles", 3),
+            [as_indices(tetrahedra, "tetrahedra", 4), as_indices(plane_triangles, "plane_triangles", 3)],
         )
         self._thickness = _as_thickness(radii, separations)
         if can_collide is not None and not callable(can_collide):

@@ -4,7 +4,7 @@
 set -euo pipefail
 root=$1
 readonly packages=(libstdc++-12-dev libeigen3-dev libgmp-dev libmpfr-dev libmpfi-dev libcgal-dev libtbb-dev libfmt-dev
-  libcli11-dev nlohmann-json3-dev libzip-dev libzstd-dev libgtest-dev libbenchmark-dev libsimde-dev libz3-dev)
+  libcli11-dev nlohmann-json3-dev libzip-dev libzstd-dev libgtest-dev libsimde-dev libz3-dev)
 
 [ "$(cat "$root/packages" 2>/dev/null)" = "${packages[*]}" ] && exit
 mkdir -p "$root"/apt/lists/partial "$root"/apt/cache/archives/partial

@@ -33,7 +33,7 @@ using exact::Rational;
 namespace {
 
 /// The axes that count.
-std::size_t axes_of(const Recipe& recipe) { return recipe.kind == CellKind::tetrahedron ? 3 : 2; }
+std::size_t axes_of(const Recipe& recipe) { return record_of(recipe.kind.cell()).dimension; }
 
 /// All points anywhere.
 Query draw_points(Sampler& sampler) {

@@ -58,7 +58,7 @@ double sign_of(const Symmetry& symmetry) {
 
 void renumber(AnyKind kind, Random& random, Symmetry& symmetry) {
   if (kind.is_cell()) {
-    shuffle(symmetry.points, 0, kind == CellKind::tetrahedron ? 4 : 3, random);
+    shuffle(symmetry.points, 0, record_of(kind.cell()).point_count, random);
     return;
   }
   if (kind == ContactKind::vertex_face) {
@@ -140,7 +140,7 @@ Symmetry draw_symmetry(AnyKind kind, const Query& query, const Separation& separ
 }
 
 Symmetry draw_isometry(AnyKind kind, Random& random) {
-  const bool is_plane = kind == CellKind::plane_triangle;
+  const bool is_plane = kind.is_cell() && record_of(kind.cell()).dimension == 2;
   Symmetry symmetry;
   if (random.coin()) renumber(kind, random, symmetry);
   if (random.coin()) shuffle(symmetry.axes, 0, is_plane ? 2 : 3, random);

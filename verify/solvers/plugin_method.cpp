@@ -242,7 +242,7 @@ constexpr TouchstonePluginAnswer unanswered{.verdict = TOUCHSTONE_ERROR,
                                             .tolerance = fast::Answer::none};
 
 static_assert(AnyKind(ContactKind::edge_edge).number() == TOUCHSTONE_EDGE_EDGE &&
-              AnyKind(CellKind::plane_triangle).number() == TOUCHSTONE_PLANE_TRIANGLE);
+              AnyKind(cell_kinds.front()).number() == TOUCHSTONE_TETRAHEDRON);
 
 class PluginMethod final : public fast::Method {
  public:

@@ -39,11 +39,12 @@ struct CellRecord {
   std::string_view keyword;  ///< in certificates
   std::string_view list;     ///< the keyword of a list of them there
   std::size_t point_count;   ///< of a mesh; a query has four, of which these are the first
+  std::size_t dimension;     ///< the number of axes that have an effect, from the first on
 };
 /// By CellKind.
 inline constexpr std::array<CellRecord, 2> cell_records{
-    {{"tetrahedron", "tetrahedron", "tetrahedra", 4},
-     {"plane-triangle", "plane_triangle", "plane_triangles", 3}}};
+    {{"tetrahedron", "tetrahedron", "tetrahedra", 4, 3},
+     {"plane-triangle", "plane_triangle", "plane_triangles", 3, 2}}};
 inline constexpr std::array cell_kinds{CellKind::tetrahedron, CellKind::plane_triangle};
 static_assert(cell_kinds.size() == cell_records.size());
 

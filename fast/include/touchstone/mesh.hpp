@@ -165,7 +165,13 @@ struct Mesh {
   /// The result of visit(cells) of a kind.
   template <class Self, class Visit>
   static auto on_cells(Self& self, CellKind kind, const Visit& visit) {
-    return kind == CellKind::tetrahedron ? visit(self.tetrahedra) : visit(self.plane_triangles);
+    switch (kind) {
+      case CellKind::tetrahedron:
+        return visit(self.tetrahedra);
+      case CellKind::plane_triangle:
+        return visit(self.plane_triangles);
+    }
+    throw std::invalid_argument("mesh: there is no such kind of cells");
   }
 
  public:
