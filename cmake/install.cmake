@@ -10,8 +10,12 @@ install(FILES ${PROJECT_BINARY_DIR}/touchstone-config.cmake
               cmake/gmp.cmake
         DESTINATION ${touchstone_config_folder})
 
+get_property(installed GLOBAL PROPERTY touchstone_installed)
+file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/is_built-$<CONFIG>.cmake CONTENT
+"set(installed \"${installed}\")\nset(build \"${PROJECT_BINARY_DIR}\")\ninclude(\"${PROJECT_SOURCE_DIR}/cmake/is_built.cmake\")\n")
+
 # touchstone_pkg_config(NAME DESCRIPTION REQUIRED_PACKAGE…): touchstone-NAME.pc, for builds that use pkg-config. The
-# libraries but that of C are static, so what they need is linked with them.
+# libraries but touchstone_c are static, so what they need is linked with them.
 file(RELATIVE_PATH touchstone_include_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_FULL_INCLUDEDIR})
 function(touchstone_pkg_config name description)
   list(JOIN ARGN ", " requires)
@@ -28,4 +32,10 @@ if(TOUCHSTONE_BUILD_EXACT)
 endif()
 if(TOUCHSTONE_BUILD_ADAPTERS)
   touchstone_pkg_config(c "Certified continuous collision detection in C")
+  # A linker of C adds neither.
+  set(runtime ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
+  list(FILTER runtime INCLUDE REGEX "^(std)?c[+][+]$|^m$")
+  list(JOIN runtime " -l" runtime)
+  set(more " -ltouchstone_fast -l${runtime}")
+  touchstone_pkg_config(c_static "Certified continuous collision detection in C, as a static library" ${tbb})
 endif()

@@ -56,22 +56,64 @@ function(touchstone_compile_together target)
   endif()
 endfunction()
 
-# touchstone_install(TARGET [FILE_SET …]): installs the library and its headers as a component of the package,
-# touchstone-NAME-targets.cmake.
-function(touchstone_install target)
-  if(NOT TOUCHSTONE_INSTALL)
+# touchstone_install(TARGET DEBIAN_PACKAGE [EXPORT NAME]): installs the library or program (is_built.cmake).
+function(touchstone_install target package)
+  if(TOUCHSTONE_INSTALL)
+    install(TARGETS ${target} ${ARGN} COMPONENT ${package})
+    get_target_property(type ${target} TYPE)
+    if(NOT type STREQUAL "INTERFACE_LIBRARY")
+      set_property(GLOBAL APPEND PROPERTY touchstone_installed "${target}|${package}|$<TARGET_FILE:${target}>")
+    endif()
+  endif()
+endfunction()
+
+# touchstone_install_component(TARGET): installs the library as a component of the package, touchstone-NAME-targets.cmake.
+function(touchstone_install_component target)
+  if(TOUCHSTONE_INSTALL)
+    get_target_property(name ${target} EXPORT_NAME)
+    touchstone_install(${target} libtouchstone-dev EXPORT touchstone-${name})
+    install(EXPORT touchstone-${name} NAMESPACE touchstone:: DESTINATION ${touchstone_config_folder}
+      FILE touchstone-${name}-targets.cmake)
+  endif()
+endfunction()
+
+# touchstone_headers(TARGET INTERFACE|PUBLIC FOLDER HEADER…): the public headers, FOLDER/HEADER, which a user includes as
+# <HEADER>. They are installed.
+function(touchstone_headers target scope folder)
+  target_include_directories(${target} ${scope}
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${folder}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  foreach(header ${ARGN})
+    if(TOUCHSTONE_INSTALL)
+      get_filename_component(place ${CMAKE_INSTALL_INCLUDEDIR}/${header} DIRECTORY)
+      install(FILES ${folder}/${header} DESTINATION ${place})
+    endif()
+  endforeach()
+endfunction()
+
+# touchstone_complete_headers(TARGET HEADER…): each header compiles by itself (target touchstone_complete_headers).
+function(touchstone_complete_headers target)
+  if(NOT TOUCHSTONE_BUILD_TESTS)
     return()
   endif()
-  get_target_property(name ${target} EXPORT_NAME)
-  install(TARGETS ${target} EXPORT touchstone-${name} FILE_SET HEADERS ${ARGN})
-  install(EXPORT touchstone-${name} NAMESPACE touchstone:: DESTINATION ${touchstone_config_folder}
-    FILE touchstone-${name}-targets.cmake)
+  set(sources)
+  foreach(header ${ARGN})
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}_headers/${header}.cpp)
+    file(CONFIGURE OUTPUT ${source} CONTENT "#include <${header}>\n")
+    list(APPEND sources ${source})
+  endforeach()
+  add_library(${target}_headers OBJECT EXCLUDE_FROM_ALL ${sources})
+  target_link_libraries(${target}_headers PRIVATE ${target})
+  set_target_properties(${target}_headers PROPERTIES UNITY_BUILD OFF)
+  if(NOT TARGET touchstone_complete_headers)
+    add_custom_target(touchstone_complete_headers)
+  endif()
+  add_dependencies(touchstone_complete_headers ${target}_headers)
 endfunction()
 
 # touchstone_module(NAME [INTERFACE] HEADERS … SOURCES … PUBLIC … PRIVATE … PRECOMPILED …): the library
 # touchstone_NAME, alias touchstone::NAME, with the packages and modules that it may use. HEADERS are the public
 # headers, in include/touchstone/ of the module: a user includes <touchstone/HEADER>, and nothing else is on the user's
-# include path. They are installed, and each is checked to compile by itself (target all_verify_interface_header_sets).
+# include path. Each compiles by itself.
 # PRECOMPILED are foreign headers that most sources read; a source still includes the headers that it uses. A module
 # with headers is a component of the installed package, touchstone-NAME-targets.cmake.
 function(touchstone_module name)
@@ -86,13 +128,14 @@ function(touchstone_module name)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:touchstone_build_options> ${MODULE_PRIVATE})
   endif()
   add_library(touchstone::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ${PROJECT_IS_TOP_LEVEL})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   target_compile_features(${target} ${scope} cxx_std_20)
   target_link_libraries(${target} ${scope} ${MODULE_PUBLIC})
   target_precompile_headers(${target} PRIVATE ${MODULE_PRECOMPILED})
   if(MODULE_HEADERS)
-    list(TRANSFORM MODULE_HEADERS PREPEND include/touchstone/)
-    target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS include FILES ${MODULE_HEADERS})
-    touchstone_install(${target})
+    list(TRANSFORM MODULE_HEADERS PREPEND touchstone/)
+    touchstone_headers(${target} ${scope} include ${MODULE_HEADERS})
+    touchstone_complete_headers(${target} ${MODULE_HEADERS})
+    touchstone_install_component(${target})
   endif()
 endfunction()

@@ -51,7 +51,7 @@ class Touchstone(ConanFile):
 
     def generate(self):
         toolchain = CMakeToolchain(self)
-        for name in ["ADAPTERS", "BASELINES", "DERIVATION", "TESTS", "TOOL"]:
+        for name in ["ADAPTERS", "DERIVATION", "TESTS", "TOOL"]:
             toolchain.cache_variables[f"TOUCHSTONE_BUILD_{name}"] = False
         toolchain.cache_variables["TOUCHSTONE_BUILD_EXACT"] = bool(self.options.exact)
         toolchain.cache_variables["TOUCHSTONE_TBB"] = bool(self.options.tbb)

@@ -5,6 +5,13 @@ function(step)
 endfunction()
 
 file(REMOVE_RECURSE ${WORK})
+# What was not built is named before anything is installed.
+execute_process(COMMAND ${CMAKE_COMMAND} "-Dinstalled=touchstone_c|library|${WORK}/none;touchstone_check|checker|${CMAKE_COMMAND}"
+    -P ${CMAKE_CURRENT_LIST_DIR}/../../cmake/is_built.cmake
+  RESULT_VARIABLE status ERROR_VARIABLE message)
+if(status EQUAL 0 OR NOT message MATCHES "installed: touchstone_c\n.*component[ \n]+NAME[)]:[ \n]+checker")
+  message(FATAL_ERROR "an unfinished build is installed, or the message does not say what to build: ${message}")
+endif()
 step(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 step(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
      -DCMAKE_PREFIX_PATH=${WORK}/prefix -DVERSION=${VERSION})
@@ -25,6 +32,7 @@ function(run_program_in_c program)
   endif()
 endfunction()
 run_program_in_c(${WORK}/build/c_caller)
+run_program_in_c(${WORK}/build/c_static_caller)
 execute_process(COMMAND ldd ${WORK}/build/simulator OUTPUT_VARIABLE libraries COMMAND_ERROR_IS_FATAL ANY)
 if(libraries MATCHES "gmp|mpfr|CGAL|boost")
   message(FATAL_ERROR "a program that links touchstone::fast needs an exact library:\n${libraries}")
@@ -46,6 +54,17 @@ step(${WORK}/simulator)
 compile_by_pkg_config(touchstone-exact researcher ${CMAKE_CURRENT_LIST_DIR}/researcher.cpp c++ -std=c++20)
 step(${WORK}/researcher)
 compile_by_pkg_config(touchstone-c c_caller ${CMAKE_CURRENT_LIST_DIR}/../../examples/library/step.c cc)
+compile_by_pkg_config(touchstone-c_static c_static_caller ${CMAKE_CURRENT_LIST_DIR}/../../examples/library/step.c cc)
+run_program_in_c(${WORK}/c_static_caller)
 set(ENV{LD_LIBRARY_PATH} ${packages}/..)
 run_program_in_c(${WORK}/c_caller)
+
+# Without components find_package takes those that are installed.
+file(GLOB_RECURSE more ${WORK}/prefix/*/touchstone-exact-*.cmake ${WORK}/prefix/*/touchstone-derivation-*.cmake
+  ${WORK}/prefix/*/touchstone-scene_certificates-*.cmake)
+file(REMOVE ${more})
+file(MAKE_DIRECTORY ${WORK}/user)
+file(COPY_FILE ${CMAKE_CURRENT_LIST_DIR}/subproject.cmake ${WORK}/user/CMakeLists.txt)
+step(${CMAKE_COMMAND} -S ${WORK}/user -B ${WORK}/part -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix -DHOW=find_package
+     -DTOUCHSTONE=${CMAKE_CURRENT_LIST_DIR}/../..)
 file(REMOVE_RECURSE ${WORK})

@@ -1,6 +1,7 @@
-# A simulator that takes the project by add_subdirectory or FetchContent, on a machine with Eigen, oneTBB and no other of the
-# project's packages. -DHOW=add_subdirectory|FetchContent -DTOUCHSTONE=<the project's folder>
-cmake_minimum_required(VERSION 3.25)
+# A simulator that takes the project by add_subdirectory or FetchContent, or installed without what needs more, on a machine
+# with Eigen, oneTBB and no other of the project's packages.
+# -DHOW=add_subdirectory|FetchContent|find_package -DTOUCHSTONE=<the project's folder> -DARCHIVE=<its archive, for FetchContent>
+cmake_minimum_required(VERSION 3.22)
 project(subproject LANGUAGES CXX)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 foreach(package CGAL Boost GMP MPFR fmt CLI11 nlohmann_json zstd GTest benchmark Python3)
@@ -8,8 +9,10 @@ foreach(package CGAL Boost GMP MPFR fmt CLI11 nlohmann_json zstd GTest benchmark
 endforeach()
 if(HOW STREQUAL "FetchContent")
   include(FetchContent)
-  FetchContent_Declare(touchstone SOURCE_DIR ${TOUCHSTONE})
+  FetchContent_Declare(touchstone URL ${ARCHIVE})
   FetchContent_MakeAvailable(touchstone)
+elseif(HOW STREQUAL "find_package")
+  find_package(touchstone REQUIRED)  # the components that are installed
 else()
   add_subdirectory(${TOUCHSTONE} touchstone)
 endif()
