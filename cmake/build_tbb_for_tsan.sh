@@ -6,19 +6,8 @@ set -eu
 folder=$1
 [ -e "$folder/installed/done" ] && exit
 rm -rf "$folder"
-mkdir -p "$folder/lists/partial" "$folder/source"
+"$(dirname "$0")/debian_sources.sh" "$folder/source" onetbb
 cd "$folder"
-cat >debian.sources <<END
-Types: deb-src
-URIs: http://deb.debian.org/debian
-Suites: $(. /etc/os-release && echo "$VERSION_CODENAME")
-Components: main
-Signed-By: /usr/share/keyrings/debian-archive-keyring.gpg
-END
-# A separate list, because the machine's list may name no sources.
-as_here="-o Dir::Etc::sourcelist=$PWD/debian.sources -o Dir::Etc::sourceparts=/dev/null -o Dir::State::lists=$PWD/lists"
-apt-get $as_here update -qq
-(cd source && apt-get $as_here source -qq --only-source onetbb)
 cmake -G Ninja -S "$(echo source/onetbb-*/)" -B build -DCMAKE_BUILD_TYPE=RelWithDebInfo -DTBB_SANITIZE=thread \
   -DTBB_TEST=OFF -DTBB_STRICT=OFF -DTBBMALLOC_BUILD=OFF -DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON \
   -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_INSTALL_PREFIX="$PWD/installed"

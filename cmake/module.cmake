@@ -9,22 +9,27 @@ target_compile_features(touchstone_build_options INTERFACE cxx_std_20)
 target_include_directories(touchstone_build_options INTERFACE ${PROJECT_SOURCE_DIR})
 # CGAL's numbers are GMP's here. Its headers read all of Boost.Multiprecision beside them unless told not to: a third of
 # the time that they take to compile.
-target_compile_definitions(touchstone_build_options INTERFACE CGAL_DO_NOT_USE_BOOST_MP)
-target_compile_options(touchstone_build_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wcast-qual -Wold-style-cast
-  -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough
-  $<$<BOOL:${TOUCHSTONE_WERROR}>:-Werror>
-  # The compiler collects its garbage only above 4 GB, which no source reaches: 7 % less time.
-  $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=4000000>
-  # A filter's bound holds for the operations as they are written.
-  -ffp-contract=off
-  # GCC 12 for AArch64 puts a constant that it may not fold (-frounding-math, an option of CGAL's package) in the middle
-  # of a block of constants, and then reads those behind it from wrong places.
-  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},aarch64>>:-fno-section-anchors>
-  # Clang 19 raises an alarm on the stable sort of GCC's library, which uses a deprecated function.
-  $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
-  # GCC 12 raises a false alarm on std::string's operator+ (its bug 105651).
-  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+target_compile_definitions(touchstone_build_options INTERFACE CGAL_DO_NOT_USE_BOOST_MP $<$<PLATFORM_ID:Windows>:NOMINMAX>)
+# A filter's bound holds for the operations as they are written.
+set(touchstone_strict_arithmetic $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:$<$<BOOL:${MSVC}>:/clang:>-ffp-contract=off>)
+if(MSVC)  # clang-cl, and for query and filters cl
+  target_compile_options(touchstone_build_options INTERFACE /W4 /bigobj /utf-8 ${touchstone_strict_arithmetic})
+else()
+  target_compile_options(touchstone_build_options INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wcast-qual -Wold-style-cast
+    -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough
+    $<$<BOOL:${TOUCHSTONE_WERROR}>:-Werror>
+    # The compiler collects its garbage only above 4 GB, which no source reaches: 7 % less time.
+    $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=4000000>
+    ${touchstone_strict_arithmetic}
+    # GCC 12 for AArch64 puts a constant that it may not fold (-frounding-math, an option of CGAL's package) in the middle
+    # of a block of constants, and then reads those behind it from wrong places.
+    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},aarch64>>:-fno-section-anchors>
+    # Clang 19 raises an alarm on the stable sort of GCC's library, which uses a deprecated function.
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
+    # GCC 12 raises a false alarm on std::string's operator+ (its bug 105651).
+    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+endif()
 if(TOUCHSTONE_SANITIZE)
   target_compile_options(touchstone_build_options INTERFACE
     -fsanitize=${TOUCHSTONE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer

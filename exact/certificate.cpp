@@ -21,7 +21,7 @@ AlgebraicNumber recognised(const AlgebraicNumber& number) {
   if (number.rational()) return number;
   AlgebraicNumber near = number;
   const Integer& leading = near.polynomial().leading();
-  near.refine_to_level(mpz_sizeinbase(leading.get_mpz_t(), 2) + 1);
+  near.refine_to_level(static_cast<unsigned long>(mpz_sizeinbase(leading.get_mpz_t(), 2)) + 1);
   // An interval shorter than the distance of the multiples contains at most one.
   const auto [lower, upper] = near.interval();
   if (near.rational()) return near;

@@ -22,7 +22,7 @@ int sign_at_dyadic(const std::vector<Integer>& a, const Integer& index, unsigned
   Integer value = 0;
   for (std::size_t i = a.size(); i-- > 0;) {
     value *= index;
-    value += Integer(a[i] << (level * (a.size() - 1 - i)));
+    value += Integer(a[i] << (level * static_cast<mp_bitcnt_t>(a.size() - 1 - i)));
   }
   return sgn(value);
 }
@@ -50,7 +50,7 @@ Integer guess_of_cluster(std::vector<Integer> local, const Crowded& crowded, boo
     value = slope = 0;
     for (std::size_t i = 0; i < local.size(); ++i) {
       value += local[i];
-      slope += local[i] * i;
+      slope += local[i] * static_cast<unsigned long>(i);
     }
   }
   if (sgn(slope) == 0) return 1;

@@ -121,7 +121,8 @@ std::ostream& operator<<(std::ostream& out, const Polynomial& p) {
 
 Polynomial derivative(const Polynomial& p) {
   std::vector<Integer> result(p.degree());
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = p[i + 1] * (i + 1);
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = p[i + 1] * static_cast<unsigned long>(i + 1);
   return Polynomial(std::move(result));
 }
 
@@ -146,7 +147,7 @@ int sign_at(const Polynomial& p, const Rational& x) {
 std::vector<Integer> local_coefficients(const Polynomial& p, const DyadicCell& cell) {
   std::vector<Integer> a = p.coefficients();
   const std::size_t n = p.degree();
-  for (std::size_t i = 0; i < n; ++i) a[i] <<= cell.level * (n - i);
+  for (std::size_t i = 0; i < n; ++i) a[i] <<= cell.level * static_cast<mp_bitcnt_t>(n - i);
   if (sgn(cell.index) == 0) return a;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = n; j-- > i;) a[j] += cell.index * a[j + 1];

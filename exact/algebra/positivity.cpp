@@ -30,8 +30,9 @@ std::pair<Part, Part> halves(Part part) {
   Part left{std::vector<Integer>(n + 1), part.depth + 1, 2 * part.index};
   Part right{std::vector<Integer>(n + 1), part.depth + 1, 2 * part.index + 1};
   for (std::size_t k = 0; k <= n; ++k) {
-    left.bernstein[k] = row.front() << (n - k);
-    right.bernstein[n - k] = row.back() << (n - k);
+    const auto shift = static_cast<mp_bitcnt_t>(n - k);
+    left.bernstein[k] = row.front() << shift;
+    right.bernstein[n - k] = row.back() << shift;
     for (std::size_t i = 0; i + 1 < row.size(); ++i) row[i] += row[i + 1];
     row.pop_back();
   }
@@ -46,7 +47,9 @@ bool is_positive_at_ends(const std::vector<Integer>& bernstein) {
 
 std::vector<Integer> binomials(std::size_t n) {
   std::vector<Integer> row{1};
-  for (std::size_t k = 1; k <= n; ++k) row.emplace_back(row.back() * (n - k + 1) / k);
+  for (unsigned long k = 1; k <= n; ++k) {
+    row.emplace_back(row.back() * static_cast<unsigned long>(n - k + 1) / k);
+  }
   return row;
 }
 

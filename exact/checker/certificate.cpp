@@ -52,7 +52,7 @@ mpq_class parse_hexadecimal(std::string_view text) {
   const auto [digits, power] = parted(text, 'p', "");
   const auto [whole, fraction] = parted(digits, '.', "");
   if (whole.empty() || digits.ends_with('.')) reject("not a number");
-  const long exponent = parse_power_of_two(power) - 4 * std::ssize(fraction);
+  const long exponent = parse_power_of_two(power) - 4 * static_cast<long>(fraction.size());
   mpq_class number(parse_digits(std::string(whole).append(fraction), 16));
   // The integers of the fraction: number · 2^exponent / 1 or number / 2^−exponent.
   constexpr long limit = max_number_bits;
@@ -126,7 +126,7 @@ Curve read_curve(Reader& reader) {
   reader.begin();
   const bool is_rational = reader.one_of({"curve", "rational"}) == 1;
   const mpz_class degree = signed_number(reader.word(), parse_decimal);
-  if (degree < 0 || degree > max_curve_degree)
+  if (degree < 0 || degree > static_cast<unsigned long>(max_curve_degree))
     reject("a degree that is not 0 to " + std::to_string(max_curve_degree));
   reader.end();
   for (unsigned long j = 0; j <= degree.get_ui(); ++j) {

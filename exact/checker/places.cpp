@@ -24,7 +24,8 @@ int exponent_of_scene(const std::vector<Motion>& vertices, double distance) {
   return exponent;
 }
 
-/// The greatest integer that is not above x · 2^shift.
+/// The greatest integer that is not above x · 2^shift. It is a double: lengths have 50 bits. (GMP's
+/// integers for it are `long`, which has 32 bits on Windows.)
 std::int64_t rounded_down(mpq_class x, int shift) {
   if (shift < 0) {
     x >>= static_cast<mp_bitcnt_t>(-shift);
@@ -33,7 +34,7 @@ std::int64_t rounded_down(mpq_class x, int shift) {
   }
   mpz_class result;
   mpz_fdiv_q(result.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
-  return result.get_si();
+  return static_cast<std::int64_t>(result.get_d());
 }
 
 std::int64_t rounded_up(const mpq_class& x, int shift) { return -rounded_down(-x, shift); }

@@ -124,8 +124,8 @@ FormVector unit(std::size_t axis) {
 /// Σ b_k c_k (1−t)^(n−k) t^k with b the binomials of n, as a polynomial in t.
 Form bernstein_polynomial(Form c) {
   mpz_class binomial = 1;
-  const std::size_t degree = c.size() - 1;
-  for (std::size_t k = 1; k < degree; ++k) {
+  const auto degree = static_cast<unsigned long>(c.size() - 1);
+  for (unsigned long k = 1; k < degree; ++k) {
     binomial = binomial * (degree - k + 1) / k;
     c[k] *= binomial;
   }

@@ -11,10 +11,24 @@ namespace touchstone::fast {
 #ifdef __SSE2__
 namespace {
 constexpr unsigned default_state = 0x1F80;
-}
+#ifdef __MINGW32__
+constexpr unsigned short default_x87 = 0x037F;
+#endif
+}  // namespace
 
-StrictFloatingPoint::StrictFloatingPoint() : callers_(_mm_getcsr()) { _mm_setcsr(default_state); }
-StrictFloatingPoint::~StrictFloatingPoint() { _mm_setcsr(callers_); }
+StrictFloatingPoint::StrictFloatingPoint() : callers_(_mm_getcsr()) {
+  _mm_setcsr(default_state);
+#ifdef __MINGW32__
+  __asm__ volatile("fnstcw %0" : "=m"(callers_x87_));
+  __asm__ volatile("fldcw %0" : : "m"(default_x87));
+#endif
+}
+StrictFloatingPoint::~StrictFloatingPoint() {
+  _mm_setcsr(callers_);
+#ifdef __MINGW32__
+  __asm__ volatile("fldcw %0" : : "m"(callers_x87_));
+#endif
+}
 #else
 StrictFloatingPoint::StrictFloatingPoint() : callers_{} {
   std::fegetenv(&callers_);

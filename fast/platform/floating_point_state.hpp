@@ -21,6 +21,9 @@ class StrictFloatingPoint {
  private:
 #ifdef __SSE2__
   unsigned callers_;  ///< MXCSR, the register that SSE, AVX and AVX-512 use
+#ifdef __MINGW32__
+  unsigned short callers_x87_;  ///< the control word of the x87, on which std::ldexp runs there
+#endif
 #else
   std::fenv_t callers_;
 #endif

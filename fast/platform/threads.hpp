@@ -25,6 +25,11 @@
 #include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/parallel_reduce.h>
 #include <oneapi/tbb/task_arena.h>
+#ifdef _WIN32
+// Names of variables here, macros in <windows.h>, which oneTBB reads.
+#undef far
+#undef near
+#endif
 #else
 #include <array>
 #include <cstddef>

@@ -1,10 +1,12 @@
 #include "touchstone/derivation/gappa.hpp"
 
 #include <fmt/format.h>
+#ifndef _WIN32
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#endif
 
 #include <algorithm>
 #include <array>
@@ -231,6 +233,7 @@ void require_degree_one(const ExpressionGraph& graph, const Format& format) {
 
 // ---- Process ------------------------------------------------------------------------------------
 
+#ifndef _WIN32
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 [[noreturn]] void fail(int error, const std::string& what) {
@@ -314,6 +317,7 @@ std::optional<mpq_class> answered_bound(const std::string& output) {
   }
   return value;
 }
+#endif
 
 }  // namespace
 
@@ -332,6 +336,11 @@ std::set<std::string> gappa_scripts(const ExpressionGraph& graph, const Format& 
   return scripts;
 }
 
+#ifdef _WIN32
+GappaAnswer run_gappa(const std::string& /*script*/, std::chrono::seconds /*limit*/) {
+  throw GappaMissing("gappa: run on systems with POSIX alone");
+}
+#else
 GappaAnswer run_gappa(const std::string& script, std::chrono::seconds limit) {
   const File input = temporary_file(), output = temporary_file();
   if (std::fwrite(script.data(), 1, script.size(), input.get()) != script.size() ||
@@ -346,6 +355,7 @@ GappaAnswer run_gappa(const std::string& script, std::chrono::seconds limit) {
   if (answer.proved) answer.bound = answered_bound(answer.output);
   return answer;
 }
+#endif
 
 std::optional<mpq_class> gappa_bound(const ExpressionGraph& graph, const Format& format,
                                      GappaGoal goal) {

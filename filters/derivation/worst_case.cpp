@@ -38,7 +38,10 @@ double nearest_double(const mpq_class& x) {
     if (is_inexact) bits |= 1;
     exponent += excess;
   }
-  return std::ldexp(static_cast<double>(bits.get_si()), exponent);
+  // (GMP's own integers are `long`, which has 32 bits on Windows.)
+  const mpz_class upper = bits >> 31U, lower = bits - (upper << 31U);
+  return std::ldexp(static_cast<double>(std::int64_t{upper.get_si()} << 31U | lower.get_si()),
+                    exponent);
 }
 
 class Search {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -21,7 +19,6 @@
 #include <vector>
 
 #include "tests/support/messages.hpp"
-#include "tests/support/process_memory.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 #include "touchstone/number.hpp"
@@ -202,27 +199,6 @@ TEST(BroadPhase, CountsCandidatesThatAreTooMany) {
   }
   EXPECT_TRUE(edge_edge_candidates(vertices, {}, {.max_candidates = 0}).empty());
 }
-
-#ifndef TOUCHSTONE_SANITIZED
-TEST(BroadPhase, CountsCandidatesThatDoNotFitIntoMemory) {
-  // 18 million pairs of eight bytes each, and room for 64 MiB.
-  const auto search = [] {
-    const auto [vertices, edges] = crowd(6000);
-    const rlim_t limit = tests::process_memory().address_space + (std::uint64_t{64} << 20U);
-    const rlimit limits{.rlim_cur = limit, .rlim_max = limit};
-    ::setrlimit(RLIMIT_AS, &limits);
-    try {
-      static_cast<void>(edge_edge_candidates(vertices, edges, {.max_threads = 1}));
-    } catch (const TooManyCandidates& error) {
-      _exit(error.count() == 6000U * 5999U / 2U ? 0 : 1);
-    }
-    _exit(2);
-  };
-  // A process that does not fork this one, which would inherit the locks of other tests.
-  GTEST_FLAG_SET(death_test_style, "threadsafe");
-  EXPECT_EXIT(search(), ::testing::ExitedWithCode(0), "");
-}
-#endif
 
 TEST(EdgesOf, GoByTheirLargerVertexThenByTheSmaller) {
   Random random(16);

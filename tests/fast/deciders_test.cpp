@@ -13,6 +13,7 @@
 #include <functional>
 #include <initializer_list>
 #include <limits>
+#include <map>
 #include <ostream>
 #include <span>
 #include <string>
@@ -31,7 +32,6 @@
 #include "tests/support/trials.hpp"
 #include "touchstone/certified.hpp"
 #include "touchstone/mesh.hpp"
-#include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 
 namespace touchstone::fast::deciders_test {
@@ -251,20 +251,13 @@ Query built_in(ContactKind kind, std::size_t i) {
 }
 
 const std::vector<Query>& public_queries(ContactKind kind) {
-  static const auto read = [](ContactKind wanted) {
-    std::vector<Query> queries;
-    for (const auto& file : tests::public_datasets()) {
-      const auto source = verify::data::open_dataset(file);
-      while (source->kind() == wanted) {
-        const auto recorded = source->next();
-        if (!recorded) break;
-        queries.push_back(recorded->query.straight());
-      }
-    }
+  static const auto of_kinds = [] {
+    std::map<ContactKind, std::vector<Query>> queries;
+    tests::for_each_public_query([&](const auto& /*file*/, std::uint64_t /*index*/, ContactKind one,
+                                     const Query& query) { queries[one].push_back(query); });
     return queries;
-  };
-  static const std::array both{read(ContactKind::vertex_face), read(ContactKind::edge_edge)};
-  return both.at(kind == ContactKind::vertex_face ? 0 : 1);
+  }();
+  return of_kinds.at(kind);
 }
 
 std::vector<QueryFamily> query_families() {

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/task_arena.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <array>
 #include <cfenv>
@@ -27,7 +25,6 @@
 #include "fast/tight_inclusion/box_kernel.hpp"
 #include "tests/support/floating_point_modes.hpp"
 #include "tests/support/messages.hpp"
-#include "tests/support/process_memory.hpp"
 
 namespace touchstone::fast::platform_test {
 namespace {
@@ -116,45 +113,6 @@ TEST(LargeArray, HoldsItemsOfAnySize) {
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(moved.data()) % alignment, 0U);
   }
 }
-
-#ifndef TOUCHSTONE_SANITIZED
-TEST(LargeArray, HasTheMemoryOfOneBefore) {
-  for (const std::size_t size : {10'000U, 200'000U}) {
-    const Line* const first = LargeArray<Line>(size).data();
-    const LargeArray<Line> second(size - 100), third(size);
-    EXPECT_EQ(second.data(), first) << "freed before, and large enough";
-    EXPECT_NE(third.data(), first) << "in use";
-  }
-  const Line* const large = LargeArray<Line>(200'000).data();
-  EXPECT_NE(LargeArray<Line>(80'000).data(), large) << "more than twice as large";
-}
-
-TEST(LargeArray, KeepsAtMostSoMuchMemory) {
-  // Five arrays of 40 MiB, each written. (The C library gives such memory back.) One is kept.
-  static constexpr std::size_t size = std::size_t{40} << 14U;
-  std::vector<LargeArray<Line>> arrays;
-  for (int i = 0; i < 5; ++i) {
-    arrays.emplace_back(size);
-    for (std::size_t k = 0; k < size; k += 64) arrays.back()[k].words[0] = 1;
-  }
-  const std::uint64_t before = tests::process_memory().resident;
-  arrays.clear();
-  EXPECT_LT(tests::process_memory().resident, before - (std::uint64_t{3 * 40} << 20U));
-}
-
-TEST(LargeArray, HasMemoryThatIsKeptForOthersBeforeThereIsNone) {
-  const auto fill = [] {
-    static_cast<void>(LargeArray<Line>(std::size_t{32} << 14U));
-    const rlim_t limit = tests::process_memory().address_space + (std::uint64_t{16} << 20U);
-    const rlimit limits{.rlim_cur = limit, .rlim_max = limit};
-    ::setrlimit(RLIMIT_AS, &limits);
-    const LargeArray<Line> other(std::size_t{36} << 14U);  // only without the first one
-    _exit(other.data() != nullptr ? 0 : 1);
-  };
-  GTEST_FLAG_SET(death_test_style, "threadsafe");
-  EXPECT_EXIT(fill(), ::testing::ExitedWithCode(0), "");
-}
-#endif
 
 TEST(LargeArray, OfSeveralThreadsAreApart) {
   std::vector<std::thread> threads;

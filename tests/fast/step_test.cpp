@@ -1,8 +1,6 @@
 #include "touchstone/step.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -33,7 +31,6 @@
 #include "tests/support/certified_against_oracle.hpp"
 #include "tests/support/inverting_cells.hpp"
 #include "tests/support/messages.hpp"
-#include "tests/support/process_memory.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
@@ -1147,55 +1144,6 @@ TEST(Step, PlantedFaultsInTheFusedStageAreFound) {
   }
   for (const auto& planted : tests::planted_faults().search_of_bodies) expect_found(planted);
 }
-
-#ifndef TOUCHSTONE_SANITIZED
-// ---- Memory -------------------------------------------------------------------------------------
-
-/// oneTBB loses memory with each arena, and with each thread of the caller's outside of one.
-TEST(Step, SearchesTakeNoMemoryThatTheyKeep) {
-  const Places places = Places::Identity(3, 3);
-  Step step(places, places, {.faces = {{0, 1, 2}}}, {.solve = {.max_threads = 2}});
-  const auto search = [&](int count) {
-    for (int i = 0; i < count; ++i) {
-      step = step.with_places(Motion(places, (1.0 + i) * places), {});
-      EXPECT_TRUE(step.is_free());
-      std::thread([&] { EXPECT_TRUE(step.collisions().empty()); }).join();
-    }
-  };
-  search(200);
-  const std::uint64_t before = tests::process_memory().resident;
-  search(2000);
-  EXPECT_LT(tests::process_memory().resident, before + (std::uint64_t{6} << 20U));
-}
-
-TEST(Step, DoesNotStoreCandidates) {
-  // Edges beside each other along a diagonal: all boxes overlap without contact. Four and a half
-  // million pairs of eight bytes each, and room for 24 MiB.
-  const auto search = [] {
-    static constexpr std::int32_t count = 3000;
-    Places places(2 * count, 3);
-    std::vector<Edge> edges;
-    for (std::int32_t i = 0; i < count; ++i) {
-      const double offset = 0x1p-20 * i;
-      places.row(2 * i) << offset, -offset, 0;
-      places.row(2 * i + 1) << 1 + offset, 1 - offset, 1;
-      edges.push_back({2 * i, 2 * i + 1});
-    }
-    const rlim_t limit = tests::process_memory().address_space + (std::uint64_t{24} << 20U);
-    const rlimit limits{.rlim_cur = limit, .rlim_max = limit};
-    ::setrlimit(RLIMIT_AS, &limits);
-    const Step step(places, places, {.edges = edges, .faces = {}, .points = {}},
-                    {.solve = {.max_threads = 1}});
-    std::uint64_t found = 0;
-    step.candidates([&](const StepCandidates& some) { found += some.pairs.size(); });
-    if (found != std::uint64_t{count} * (count - 1) / 2) _exit(1);
-    _exit(step.is_free() ? 0 : 2);
-  };
-  // A process that does not fork this one, which would inherit the locks of other tests.
-  GTEST_FLAG_SET(death_test_style, "threadsafe");
-  EXPECT_EXIT(search(), ::testing::ExitedWithCode(0), "");
-}
-#endif
 
 }  // namespace
 }  // namespace touchstone::fast::step_test

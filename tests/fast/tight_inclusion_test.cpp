@@ -29,7 +29,6 @@
 #include "touchstone/filters/error_bounds.hpp"
 #include "touchstone/number.hpp"
 #include "touchstone/oracle.hpp"
-#include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 
 namespace touchstone::fast::tight_inclusion_test {
@@ -139,20 +138,14 @@ TEST_P(Conservative, OnAllFamilies) {
 }
 
 TEST(TightInclusion, MissesNothingOnThePublicData) {
-  const auto files = tests::public_datasets();
-  if (files.empty()) GTEST_SKIP() << "public data missing";
   int false_positives = 0;
-  for (const auto& file : files) {
-    const auto source = verify::data::open_dataset(file);
-    while (const auto recorded = source->next()) {
-      const ContactKind kind = source->kind().contact();
-      const Query& query = recorded->query.straight();
-      const exact::Decision truth = exact::decide(kind, query);
-      const auto result = tight_inclusion(kind, query, limited());
-      EXPECT_EQ(fault(truth, limited(), result), "") << file << ' ' << recorded->index;
-      if (result.verdict == Verdict::yes && !truth.collides()) ++false_positives;
-    }
-  }
+  const auto visit = [&](const auto& file, std::uint64_t index, ContactKind kind, const Query& query) {
+    const exact::Decision truth = exact::decide(kind, query);
+    const auto result = tight_inclusion(kind, query, limited());
+    EXPECT_EQ(fault(truth, limited(), result), "") << file << ' ' << index;
+    if (result.verdict == Verdict::yes && !truth.collides()) ++false_positives;
+  };
+  if (!tests::for_each_public_query(visit)) GTEST_SKIP() << "public data missing";
   EXPECT_GT(false_positives, 0);  // conservative, not exact
 }
 

@@ -166,7 +166,7 @@ KnownQuery collinear_edges(Recipe& recipe) {
   if (variant == 4) shift_first(recipe.contact(), shift, moment);
   const Query query = to_query(recipe, moment);
   if (gap1 > 0 || variant == 4) return no_collision(query);
-  Rational toi{Integer(gap0), Integer(gap0 - gap1)};
+  Rational toi{whole(gap0), whole(gap0 - gap1)};
   toi.canonicalize();
   return collision(query, toi);
 }

@@ -107,11 +107,11 @@ KnownQuery shifted(Recipe& recipe, const Weights& weights, Moment moment, const 
   const auto [e1, e2] = moment.edges(recipe.contact());
   const Vector r = moment.relative_velocity(recipe.contact());
   const Integer all = determinant(e1, e2, r);
-  const Integer total(weights.total);
-  const Rational u(ratio(weights.first, total) - ratio(determinant(s, e2, r), all));
-  const Rational v(ratio(weights.second, total) - ratio(determinant(e1, s, r), all));
+  const Integer total = whole(weights.total);
+  const Rational u(ratio(whole(weights.first), total) - ratio(determinant(s, e2, r), all));
+  const Rational v(ratio(whole(weights.second), total) - ratio(determinant(e1, s, r), all));
   const Rational t(moment.time.value() -
-                   ratio(determinant(e1, e2, s), Integer(all * moment.time.denominator())));
+                   ratio(determinant(e1, e2, s), Integer(all * whole(moment.time.denominator()))));
   shift_first(recipe.contact(), s, moment);
   const Query query = to_query(recipe, moment);
   const bool in_time = t >= 0 && t <= 1;

@@ -16,7 +16,7 @@ std::int64_t draw_bound(Random& random, int bits) {
 }
 
 Integer minor(const Vector& a, const Vector& b, std::size_t i, std::size_t j) {
-  return {Integer(a.at(i)) * Integer(b.at(j)) - Integer(a.at(j)) * Integer(b.at(i))};
+  return {whole(a.at(i)) * whole(b.at(j)) - whole(a.at(j)) * whole(b.at(i))};
 }
 
 std::size_t first_of_second(ContactKind kind) { return kind == ContactKind::vertex_face ? 1 : 2; }
@@ -35,9 +35,13 @@ Vector operator*(std::int64_t factor, const Vector& a) {
   return {factor * a[0], factor * a[1], factor * a[2]};
 }
 
+Integer whole(std::int64_t x) {
+  return (Integer(static_cast<long>(x >> 32)) << 32U) + static_cast<unsigned long>(x & 0xFFFF'FFFF);
+}
+
 Integer determinant(const Vector& a, const Vector& b, const Vector& c) {
-  return {minor(a, b, 0, 1) * Integer(c[2]) - minor(a, b, 0, 2) * Integer(c[1]) +
-          minor(a, b, 1, 2) * Integer(c[0])};
+  return {minor(a, b, 0, 1) * whole(c[2]) - minor(a, b, 0, 2) * whole(c[1]) +
+          minor(a, b, 1, 2) * whole(c[0])};
 }
 
 bool parallel(const Vector& a, const Vector& b) {
@@ -62,7 +66,7 @@ Vector draw_unit_shift(Random& random) {
 }
 
 Rational DyadicTime::value() const {
-  Rational value{Integer(numerator), Integer(denominator())};
+  Rational value{whole(numerator), whole(denominator())};
   value.canonicalize();
   return value;
 }

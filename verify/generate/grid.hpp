@@ -30,6 +30,9 @@ using Vector = std::array<std::int64_t, 3>;
 [[nodiscard]] Vector operator-(const Vector& a, const Vector& b);
 [[nodiscard]] Vector operator*(std::int64_t factor, const Vector& a);
 
+/// The integer x. (What GMP converts itself is `long`, which has 32 bits on Windows.)
+[[nodiscard]] exact::Integer whole(std::int64_t x);
+
 /// The determinant of three vectors, exact.
 [[nodiscard]] exact::Integer determinant(const Vector& a, const Vector& b, const Vector& c);
 

@@ -28,6 +28,7 @@
 
 #include "verify/generate/coordinate_sampler.hpp"
 #include "verify/generate/family_builder.hpp"
+#include "verify/generate/grid.hpp"
 #include "verify/generate/offset.hpp"
 #include "verify/generate/passing_planes.hpp"
 
@@ -358,9 +359,9 @@ struct Grid {
 
 /// The distance at λ = 1 in units of s.
 Rational distance_of_plane(const Plane& plane, Norm norm) {
-  const Integer length(plane.length);
+  const Integer length = whole(plane.length);
   if (norm == Norm::l2) return {length};
-  Rational ratio(Integer(length * length), Integer(plane.sum));
+  Rational ratio(Integer(length * length), whole(plane.sum));
   ratio.canonicalize();
   return ratio;
 }

@@ -52,8 +52,8 @@ Tangency draw_tangency(Recipe& recipe) {
       tangency = {64, random.of_either_sign(8, 16), random.of_either_sign(1, 2), 4, time};
     }
     const std::int64_t steps = std::max(time.numerator, time.denominator() - time.numerator);
-    const Integer bend = Integer(std::abs(tangency.slope)) * std::abs(tangency.drift);
-    leaves = bend * Integer(steps * steps) > tangency.half_width;
+    const Integer bend = whole(std::abs(tangency.slope)) * whole(std::abs(tangency.drift));
+    leaves = bend * whole(steps * steps) > whole(tangency.half_width);
   }
   return tangency;
 }

@@ -56,7 +56,9 @@ extern "C" {
 #ifndef TOUCHSTONE_TYPES
 #define TOUCHSTONE_TYPES
 
-#if defined(__GNUC__)
+#if defined(_WIN32)
+#define TOUCHSTONE_API __declspec(dllexport)
+#elif defined(__GNUC__)
 #define TOUCHSTONE_API __attribute__((visibility("default")))
 #else
 #define TOUCHSTONE_API

@@ -17,7 +17,8 @@
 
 // Single flags count, too: GCC has a macro for each, clang for finite-math and fast-math.
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0) || \
-    defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__)
+    defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) ||                         \
+    defined(__NO_SIGNED_ZEROS__) || defined(_M_FP_FAST)
 #error "touchstone: error bounds do not hold under -ffast-math or any of its value-changing parts"
 #endif
 

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,12 @@ constexpr std::array<int, 4> rounding_modes{FE_TONEAREST, FE_UPWARD, FE_DOWNWARD
 
 Integer power(unsigned bits) { return Integer(1) << bits; }
 
+/// A number of 64 bits. (What GMP converts itself is `long`, which may have 32.)
+template <class Whole>
+Integer whole(Whole x) {
+  return Integer(std::to_string(x));
+}
+
 BigInteger big(const Integer& value) {
   BigInteger result;
   Integer rest = abs(value);
@@ -52,7 +59,7 @@ FixedInteger<size> fixed(const Integer& value) {
   FixedInteger<size> result{}, part(std::int64_t{1});
   const Integer rest = abs(value);
   for (std::size_t bit = 0; bit + 1 < 64 * size; ++bit) {
-    if (mpz_tstbit(rest.get_mpz_t(), bit) != 0) result += part;
+    if (mpz_tstbit(rest.get_mpz_t(), static_cast<mp_bitcnt_t>(bit)) != 0) result += part;
     part += part;
   }
   return value < 0 ? -result : result;
@@ -92,8 +99,8 @@ TEST(BigInteger, CalculatesAsGmpDoes) {
     EXPECT_TRUE(shifted == big(a << static_cast<unsigned>(shift)));
     EXPECT_TRUE(shifted >> shift == big(a));
     EXPECT_TRUE(big(a) >> 8 * shift == big(a / power(static_cast<unsigned>(8 * shift))));
-    const Integer rest = ((a % Integer(modulus)) + Integer(modulus)) % Integer(modulus);
-    EXPECT_EQ(big(a).residue(modulus), rest.get_ui()) << a;
+    const Integer rest = ((a % whole(modulus)) + whole(modulus)) % whole(modulus);
+    EXPECT_EQ(whole(big(a).residue(modulus)), rest) << a;
     if (b != 0) {
       EXPECT_TRUE(big(a * b).divided_exactly(big(b)) == big(a)) << a << ' ' << b;
     }
@@ -126,8 +133,8 @@ TEST(BigInteger, ApproximatesWithinItsBounds) {
     const Integer cut = shift >= 0 ? Integer(a << static_cast<unsigned>(shift))
                                    : Integer(a / power(static_cast<unsigned>(-shift)));
     const SignedWideLimb truncated = big(a).truncated(shift);
-    const Integer upper = Integer(static_cast<std::int64_t>(truncated >> 64U)) * power(64);
-    EXPECT_EQ(Integer(upper + Integer(static_cast<std::uint64_t>(truncated))), cut)
+    const Integer upper = whole(static_cast<std::int64_t>(truncated >> 64U)) * power(64);
+    EXPECT_EQ(Integer(upper + whole(static_cast<std::uint64_t>(truncated))), cut)
         << a << ' ' << shift;
   }
   EXPECT_EQ(approximate_quotient(5, 0, 10).sign(), 0);
@@ -169,7 +176,7 @@ TEST(FixedInteger, CalculatesAsGmpDoes) {
     const Integer a = draw(random, 191), b = draw(random, 191);
     const auto x = static_cast<std::int64_t>(random.bits() >> 2U);
     const std::int64_t y = random.coin() ? (std::int64_t{1} << 62U) - 1 - x / 2 : 0;
-    const Integer expected = a * Integer(x) + b * Integer(y);
+    const Integer expected = a * whole(x) + b * whole(y);
     EXPECT_TRUE(blend(fixed<3>(a), x, fixed<3>(b), y) == fixed<4>(expected));
   }
 }
@@ -183,7 +190,7 @@ TEST(FixedInteger, HoldsItsExtremes) {
   const Integer most = power(191) - 1, low = power(128) - 1;
   for (const std::int64_t factor : {INT64_MIN, INT64_MIN + 1, std::int64_t{-1}, INT64_MAX}) {
     for (const Integer& b : {most, Integer(-most), low, Integer(-low), Integer(0)}) {
-      const Integer expected = b * Integer(static_cast<long>(factor));
+      const Integer expected = b * whole(factor);
       EXPECT_TRUE(FixedInteger<1>(factor) * fixed<3>(b) == fixed<4>(expected)) << b;
       EXPECT_TRUE(fixed<3>(b) * FixedInteger<1>(factor) == fixed<4>(expected)) << b;
     }
@@ -227,7 +234,7 @@ Integer blossom_of(const std::vector<Integer>& c, const std::vector<Time>& times
   }
   for (const Time& t : times) {
     for (std::size_t i = 0; i + 1 < b.size(); ++i) {
-      b[i] = b[i] * Integer(t.x) + b[i + 1] * Integer(t.y);
+      b[i] = b[i] * whole(t.x) + b[i + 1] * whole(t.y);
     }
     b.pop_back();
   }
@@ -258,7 +265,7 @@ struct Drawn {
     const auto c = draw_form(random, count - 1, at);
     for (std::size_t i = 0; i < count; ++i) {
       coefficients[i] = FixedInteger<2>(c[i]);
-      integers.emplace_back(c[i]);
+      integers.push_back(whole(c[i]));
     }
   }
   Time at, other;
@@ -339,15 +346,13 @@ struct RandomForm {
 RandomForm random_form(Random& random, std::size_t degree) {
   RandomForm result;
   const bool is_whole = random.coin();
-  std::int64_t binomial = 1;
+  Integer binomial = 1;
   for (std::size_t k = 0; k <= degree; ++k) {
     std::int64_t x = random.integer<std::int64_t>(is_whole ? 59 : 60);
     if (k == 0) x = std::abs(x) | (std::int64_t{1} << 59U);
-    result.c.emplace_back(is_whole ? BigInteger(x) * BigInteger(binomial) : BigInteger(x));
-    result.b.push_back(is_whole ? Rational(x) : Rational(x) / Rational(binomial));
-    const auto left = static_cast<std::int64_t>(degree - k);
-    const exact::Integer next = exact::Integer(binomial) * left / static_cast<std::int64_t>(k + 1);
-    binomial = next.get_si();
+    result.c.emplace_back(is_whole ? BigInteger(x) * big(binomial) : BigInteger(x));
+    result.b.push_back(is_whole ? Rational(whole(x)) : Rational(whole(x)) / Rational(binomial));
+    binomial = binomial * static_cast<long>(degree - k) / static_cast<long>(k + 1);
   }
   return result;
 }
@@ -367,11 +372,12 @@ TEST(FixedPointForm, IsWithinItsBound) {
     // True times may be up to a unit later.
     const Rational late = random.coin() ? Rational(0) : Rational(9, 10);
     const auto time = [&](std::int64_t t) {
-      return std::min(Rational(1), Rational((Rational(t) + late) / Rational(one)));
+      return std::min(Rational(1), Rational((whole(t) + late) / whole(one)));
     };
     const auto expected = tests::bernstein_on(form.b, time(lower), time(upper));
     for (std::size_t k = 0; k <= degree; ++k) {
-      EXPECT_LE(abs(Rational(rough.coefficients()[k]) - expected[k]), 2 + 6 * degree);
+      EXPECT_LE(abs(whole(rough.coefficients()[k]) - expected[k]),
+                static_cast<long>(2 + 6 * degree));
     }
   }
 }
