@@ -10,6 +10,7 @@
 #include <string>
 
 #include "touchstone/certified.hpp"
+#include "touchstone/inversion.hpp"
 #include "touchstone/mesh.hpp"
 #include "verify/fuzz/contact.hpp"
 #include "verify/fuzz/curved_generators.hpp"
