@@ -354,9 +354,9 @@ void define_step(py::module_& m) {
   watch_forks();
   py::class_<StoppableStep>(m, "Step")
       .def(py::init<const Doubles&, const Doubles&, const Integers&, const Integers&,
-                    const Integers&, const Integers&, const Integers&, const Integers&,
-                    const Integers&, const Doubles&, const Integers&, const Doubles&,
-                    const py::object&, double, const std::string&, double, double, int>(),
+                    const Integers&, const Integers&, const Integers&, const CellLists&,
+                    const Doubles&, const Integers&, const Doubles&, const py::object&, double,
+                    const std::string&, double, double, int>(),
            arg("before").noconvert(), arg("after").noconvert(), arg("faces").noconvert(),
            arg("edges").noconvert(), arg("points").noconvert(), arg("groups").noconvert(),
            arg("apart").noconvert(), arg("cells").noconvert(), arg("radii").noconvert(),

@@ -246,7 +246,8 @@ TEST(RoundTrips, OfRandomQueriesAreAccepted) {
 TEST(RoundTrips, OfPublicDataAreAccepted) {
   const std::size_t stride = tests::is_soak() ? 1 : 10;
   RoundTrip trip;
-  const auto add = [&](const auto& /*file*/, std::uint64_t index, ContactKind kind, const Query& query) {
+  const auto add = [&](const auto& /*file*/, std::uint64_t index, ContactKind kind,
+                       const Query& query) {
     if (index % stride == 0) trip.add({kind, query}, index % (10 * stride) == 0);
   };
   if (!tests::for_each_public_query(add)) GTEST_SKIP() << "public data missing";

@@ -139,7 +139,8 @@ TEST_P(Conservative, OnAllFamilies) {
 
 TEST(TightInclusion, MissesNothingOnThePublicData) {
   int false_positives = 0;
-  const auto visit = [&](const auto& file, std::uint64_t index, ContactKind kind, const Query& query) {
+  const auto visit = [&](const auto& file, std::uint64_t index, ContactKind kind,
+                         const Query& query) {
     const exact::Decision truth = exact::decide(kind, query);
     const auto result = tight_inclusion(kind, query, limited());
     EXPECT_EQ(fault(truth, limited(), result), "") << file << ' ' << index;
