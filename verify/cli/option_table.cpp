@@ -117,7 +117,7 @@ std::vector<OptionRow> make_table() {
       {"--kernel", "NAME", OneOf{{"scalar", "avx2", "avx512", "neon", "best"}}, "Kernel of certified and steps: scalar, avx2, avx512, neon or best"},
       {"--repetitions", "N", Whole{1, 1'000'000}, "Repetitions; times are medians"},
       {"--singles", "N", Whole{0, UINT32_MAX}, "Also time so many queries alone, one call each"},
-      {"--judge", "N", Whole{0, INT64_MAX}, "AnyQueries to judge per group, plus every reported collision"},
+      {"--judge", "N", Whole{0, INT64_MAX}, "Queries to judge per group, plus every reported collision"},
       {"--all", "", {}, "Find every collision, with its times (the default)"},
       {"--earliest", "", {}, "Find only the earliest impact and its pairs"},
       {"--free", "", {}, "Find only whether there is a collision"},

@@ -179,7 +179,7 @@ struct Batch : Shape<Kind> {
           std::to_string(this->degree));
     }
   }
-
+  /// The same of a type of fewer kinds.
   template <class Other>
   requires(std::is_convertible_v<Other, Kind>)
       Batch(const Batch<Other>& other)  // NOLINT(google-explicit-constructor)

@@ -20,7 +20,7 @@ struct Crossing {
   /// d0, 3 d1, 3 d2, d3 of the Bernstein coefficients there.
   std::array<double, 4> determinant;
 };
-using Crossings = List<Crossing>;
+using Crossings = KernelList<Crossing>;
 
 /// Intervals of a list of queries, with the coefficients of det, in memory.
 template <class Lanes>

@@ -31,7 +31,7 @@ struct Approach {
   double begin;
   double time;
 };
-using Approaches = List<Approach>;
+using Approaches = KernelList<Approach>;
 
 /// Calls the function with the norm as its template argument.
 template <class Function>

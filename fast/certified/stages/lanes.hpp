@@ -93,11 +93,8 @@ using FormatOf = StageFormat<typename Value::Scalar>;
 
 // ---- Lists of queries ---------------------------------------------------------------------------
 
-/// Items of the block.
-template <class Item>
-using List = KernelList<Item>;
 /// Queries of the block, by their indices.
-using Indices = List<std::uint32_t>;
+using Indices = KernelList<std::uint32_t>;
 
 /// Marks of places in a list. Lists are written from these marks at the end of a stage: a store
 /// whose address depends on a comparison delays the loads of all later queries.
@@ -133,7 +130,7 @@ class Marks {
 };
 
 template <class Lanes, class Item>
-inline void append(List<Item>& list, const Item& item) {
+inline void append(KernelList<Item>& list, const Item& item) {
   list.items[list.count++] = item;
 }
 
